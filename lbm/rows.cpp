@@ -1,0 +1,125 @@
+#include "lbm/rows.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "lbm/d3q19.hpp"
+
+namespace puffin::lbm {
+
+namespace {
+int wrapped(int i, int n) { return (i % n + n) % n; }
+}  // namespace
+
+Rows::Rows(const geometry::Voxels& voxels, std::array<bool, 3> periodic)
+    : origin_(voxels.origin), dx_(voxels.dx), box_(voxels.size), periodic_(periodic) {
+  const auto [nx, ny, nz] = box_;
+  // A bordered copy of the voxels marks what must be stored: active cells and every cell they stream to or from.
+  const int sx = nx + 2, sy = ny + 2, sz = nz + 2;
+  const auto at = [&](int i, int j, int k) {
+    return (i + 1) + static_cast<std::size_t>(sx) * ((j + 1) + static_cast<std::size_t>(sy) * (k + 1));
+  };
+  std::vector<Kind> mark(static_cast<std::size_t>(sx) * sy * sz, Kind::padding);
+  for (int k = 0; k < nz; ++k)
+    for (int j = 0; j < ny; ++j)
+      for (int i = 0; i < nx; ++i) {
+        if (!voxels.fluid[voxels.index(i, j, k)]) continue;
+        mark[at(i, j, k)] = Kind::active;
+        ++active_;
+        for (const auto& c : d3q19::velocity) {
+          Kind& neighbour = mark[at(i + c[0], j + c[1], k + c[2])];
+          if (neighbour == Kind::padding) neighbour = Kind::ghost;
+        }
+      }
+  if (active_ == 0) throw std::invalid_argument("no cell centre lies inside the surface: dx is too large");
+
+  // Rows: along x every cell beside an active cell of the row or of a neighbouring row must be contiguous with it, so a
+  // stretch is a maximal interval of non-padding marks, widened where (x, y+cy, z+cz) of a run would fall outside.
+  // D3Q19 has no (1,1,1) links, but a run's shift must hold for all of cx = -1, 0, 1 that are used with (cy,cz).
+  row_begin_.assign(static_cast<std::size_t>(sy) * sz + 1, 0);
+  std::ptrdiff_t next = padding;
+  for (int k = -1; k <= nz; ++k)
+    for (int j = -1; j <= ny; ++j) {
+      row_begin_[(j + 1) + static_cast<std::size_t>(sy) * (k + 1)] = static_cast<std::int32_t>(stretches_.size());
+      for (int i = -1; i <= nx;) {
+        if (mark[at(i, j, k)] == Kind::padding) {
+          ++i;
+          continue;
+        }
+        int end = i;
+        while (end <= nx && mark[at(end, j, k)] != Kind::padding) ++end;
+        stretches_.push_back({i, end - i, next});
+        next += end - i;
+        next += padding - next % padding;  // the following stretch starts on a vector boundary, never adjacent to this
+        i = end;
+      }
+    }
+  row_begin_.back() = static_cast<std::int32_t>(stretches_.size());
+  slots_ = static_cast<std::size_t>(next + padding);
+  kind_.assign(slots_, Kind::padding);
+  cell_.assign(slots_, {-2, -2, -2});
+  for (int k = -1; k <= nz; ++k)
+    for (int j = -1; j <= ny; ++j) {
+      const std::size_t row = (j + 1) + static_cast<std::size_t>(sy) * (k + 1);
+      for (int s = row_begin_[row]; s < row_begin_[row + 1]; ++s)
+        for (int n = 0; n < stretches_[s].count; ++n) {
+          kind_[stretches_[s].first + n] = mark[at(stretches_[s].x + n, j, k)];
+          cell_[stretches_[s].first + n] = {stretches_[s].x + n, j, k};
+        }
+    }
+
+  // Runs of active cells. All nine neighbouring rows store x-1..x+1 only where D3Q19 links go; (cy,cz) both non-zero is
+  // used with cx = 0 alone, and there the stretch covers x itself, which is all that is read.
+  for (int k = 0; k < nz; ++k)
+    for (int j = 0; j < ny; ++j)
+      for (int i = 0; i < nx;) {
+        if (mark[at(i, j, k)] != Kind::active) {
+          ++i;
+          continue;
+        }
+        Run run{i, j, k, 0, slot(i, j, k), {}};
+        while (i < nx && mark[at(i, j, k)] == Kind::active) ++i, ++run.count;
+        for (int cy = -1; cy <= 1; ++cy)
+          for (int cz = -1; cz <= 1; ++cz) run.shift[cy + 1][cz + 1] = slot(run.x, j + cy, k + cz) - run.first;
+        runs_.push_back(run);
+      }
+
+  for (std::size_t s = 0; s < slots_; ++s) {
+    if (kind_[s] != Kind::ghost) continue;
+    const auto c = cell_[s];
+    const std::ptrdiff_t image = active_slot(c[0], c[1], c[2]);
+    if (image >= 0) images_.push_back({static_cast<std::ptrdiff_t>(s), image});
+  }
+
+  // Chunks of about equal work. Their number depends on the number of cells alone.
+  const std::size_t wanted = std::clamp<std::size_t>(active_ / 4096, 1, 256);
+  const std::size_t per_chunk = (active_ + wanted - 1) / wanted;
+  std::size_t filled = 0;
+  int begin = 0;
+  for (int r = 0; r < static_cast<int>(runs_.size()); ++r) {
+    filled += runs_[r].count;
+    if (filled >= per_chunk || r + 1 == static_cast<int>(runs_.size())) {
+      chunks_.push_back({begin, r + 1});
+      begin = r + 1;
+      filled = 0;
+    }
+  }
+}
+
+std::ptrdiff_t Rows::slot(int i, int j, int k) const {
+  if (i < -1 || j < -1 || k < -1 || i > box_[0] || j > box_[1] || k > box_[2]) return -1;
+  const std::size_t row = (j + 1) + static_cast<std::size_t>(box_[1] + 2) * (k + 1);
+  for (int s = row_begin_[row]; s < row_begin_[row + 1]; ++s)
+    if (i >= stretches_[s].x && i < stretches_[s].x + stretches_[s].count) return stretches_[s].first + (i - stretches_[s].x);
+  return -1;
+}
+
+std::ptrdiff_t Rows::active_slot(int i, int j, int k) const {
+  std::array<int, 3> c{i, j, k};
+  for (int d = 0; d < 3; ++d)
+    if (periodic_[d]) c[d] = wrapped(c[d], box_[d]);
+  const std::ptrdiff_t s = slot(c[0], c[1], c[2]);
+  return s >= 0 && is_active(s) ? s : -1;
+}
+
+}  // namespace puffin::lbm

@@ -1,0 +1,87 @@
+#pragma once
+// Where a cell lives in memory. Only active cells and one layer of ghosts around them are stored, as rows along x.
+//
+// A row is a maximal stretch of consecutive stored slots with the same (y,z). Inside a row the slots of x, x+1, ... are
+// neighbours in memory. Every cell within one step (D3Q19) of an active cell is stored: so for a run of active cells the
+// neighbours in direction (cx,cy,cz) are again consecutive in memory, at the constant offset
+//     slot(x + cx, y + cy, z + cz) = slot(x, y, z) + cx + run.shift[cy][cz].
+// A kernel needs one offset a run and direction, no index a cell, and no test for walls: what streams out of the fluid
+// lands in a ghost slot, where the links (walls, inlet, outlet, periodic faces) pick it up.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "lbm/geometry/voxels.hpp"
+
+namespace puffin::lbm {
+
+/// Consecutive active cells along x in one row.
+struct Run {
+  int x = 0, y = 0, z = 0;     // first cell, in voxel indices
+  int count = 0;               // active cells, >= 1
+  std::ptrdiff_t first = 0;    // slot of the first cell
+  std::array<std::array<std::ptrdiff_t, 3>, 3> shift{};  // [cy+1][cz+1]: slot offset to row (y+cy, z+cz) at equal x
+};
+
+/// A contiguous range of runs, given as a whole to one thread. The partition does not depend on the number of threads.
+struct Chunk {
+  int first_run = 0, last_run = 0;  // [first_run, last_run)
+};
+
+class Rows {
+ public:
+  /// Vector lanes a row may be over-read by; every row is padded by this many slots.
+  static constexpr int padding = 16;
+
+  Rows() = default;
+  /// Lays out the active cells of `voxels`. `periodic[d]`: the voxel box wraps around in direction d.
+  /// Throws std::invalid_argument if there is no active cell.
+  explicit Rows(const geometry::Voxels& voxels, std::array<bool, 3> periodic = {false, false, false});
+
+  std::size_t slots() const { return slots_; }             // array length for one value a slot (active, ghost, padding)
+  std::size_t active_cells() const { return active_; }
+  const std::vector<Run>& runs() const { return runs_; }
+  const std::vector<Chunk>& chunks() const { return chunks_; }
+  /// Slot of cell (i,j,k), or -1 where nothing is stored. Periodic directions are not wrapped.
+  std::ptrdiff_t slot(int i, int j, int k) const;
+  /// Slot of cell (i,j,k) if that cell is active (periodic directions wrapped), else -1.
+  std::ptrdiff_t active_slot(int i, int j, int k) const;
+  bool is_active(std::ptrdiff_t slot) const { return kind_[slot] == Kind::active; }
+  bool is_ghost(std::ptrdiff_t slot) const { return kind_[slot] == Kind::ghost; }
+  /// Voxel indices of a stored slot (ghosts may lie outside the voxel box).
+  std::array<int, 3> cell(std::ptrdiff_t slot) const { return cell_[slot]; }
+  /// Ghost slots that are images of active cells across a periodic face: (ghost, the active cell it mirrors).
+  const std::vector<std::array<std::ptrdiff_t, 2>>& periodic_images() const { return images_; }
+
+  const geometry::Vec3& origin() const { return origin_; }  // centre of voxel (0,0,0)
+  double dx() const { return dx_; }
+  geometry::Vec3 centre(std::ptrdiff_t slot) const {
+    const auto c = cell_[slot];
+    return origin_ + dx_ * geometry::Vec3(c[0], c[1], c[2]);
+  }
+  std::array<int, 3> box() const { return box_; }
+  std::array<bool, 3> periodic() const { return periodic_; }
+
+ private:
+  enum class Kind : std::uint8_t { padding, ghost, active };
+  struct Stretch {
+    int x = 0, count = 0;
+    std::ptrdiff_t first = 0;
+  };
+  std::size_t slots_ = 0, active_ = 0;
+  std::vector<Run> runs_;
+  std::vector<Chunk> chunks_;
+  std::vector<Kind> kind_;
+  std::vector<std::array<int, 3>> cell_;
+  std::vector<std::array<std::ptrdiff_t, 2>> images_;
+  std::vector<Stretch> stretches_;            // stored stretches, row by row
+  std::vector<std::int32_t> row_begin_;       // per (y,z) incl. the ghost border: first stretch; size rows+1
+  geometry::Vec3 origin_ = geometry::Vec3::Zero();
+  double dx_ = 0.0;
+  std::array<int, 3> box_{0, 0, 0};
+  std::array<bool, 3> periodic_{false, false, false};
+};
+
+}  // namespace puffin::lbm

@@ -1,0 +1,20 @@
+#pragma once
+// The air's mass fluxes through the faces of the cells: what carries a scalar.
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace puffin::lbm {
+
+/// Face d of slot s lies between s and its neighbour in +d (x: s+1; y, z: through Run::shift). Values are held at every
+/// stored slot, so also for the low faces of the first active cells (there s is a ghost).
+/// Lattice units: mass of air (reference density 1) through the face in one air step, positive in +d.
+struct FaceFluxes {
+  std::array<std::vector<double>, 3> mass;         // [d][slot]
+  std::array<std::vector<std::uint8_t>, 3> open;   // [d][slot] 0: wall (no flux, no diffusion), 1: open, 2: opening of
+                                                   // the domain (inlet, outlet), one side is a ghost
+  std::vector<double> density;                     // [slot] air density at the start of the interval, lattice units
+};
+
+}  // namespace puffin::lbm
