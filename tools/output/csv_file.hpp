@@ -1,0 +1,52 @@
+#pragma once
+// Tables as comma-separated text: a header line, then rows. Numbers are the shortest text that reads back exactly.
+
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace puffin::output {
+
+using CsvCell = std::variant<double, std::string>;
+
+class CsvFile {
+ public:
+  /// Creates the file and writes the header. resume_after: keep an existing file's rows whose first column is at most
+  /// this number. Throws OutputError if the file cannot be written or, on resuming, has other columns.
+  CsvFile(std::filesystem::path file, std::vector<std::string> columns, std::optional<double> resume_after = {});
+
+  /// Throws std::invalid_argument on a wrong number of cells, OutputError if the disk refuses.
+  void append(std::span<const CsvCell> cells);
+  void append(std::initializer_list<CsvCell> cells) { append(std::span(cells.begin(), cells.size())); }
+  void flush();
+
+ private:
+  void check() const;
+
+  std::filesystem::path file_;
+  std::size_t columns_;
+  std::ofstream stream_;
+};
+
+/// A table read back: cells as text, in rows.
+struct CsvTable {
+  std::vector<std::string> columns;
+  std::vector<std::vector<std::string>> rows;
+
+  /// Index of a column, or -1.
+  int find(const std::string& column) const;
+  /// A column as numbers (NaN where the text is none); empty if there is no such column.
+  std::vector<double> numbers(const std::string& column) const;
+};
+
+/// Throws OutputError if the file cannot be read.
+CsvTable read_csv(const std::filesystem::path& file);
+
+/// The shortest decimal text that reads back as the same double; "nan" and "inf" for those.
+std::string shortest(double value);
+
+}  // namespace puffin::output

@@ -1,0 +1,33 @@
+#pragma once
+// Pictures of a run from its own files (vtk/*.pvd), painted on the processor: no display, no graphics driver.
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace puffin::output {
+
+enum class View { geometry, carriers, slice, wall_map };
+
+/// "geometry", "carriers", "slice", "wall-map". Throws std::invalid_argument naming the views.
+View parse_view(const std::string& name);
+const char* name_of(View view);
+
+struct RenderOptions {
+  int width = 1600, height = 1000;      // [pixel]
+  int slice_axis = 2;                   // 0, 1, 2: the normal of the slice is x, y, z
+  std::optional<double> slice_at;       // position along the normal [m]; absent: the middle
+  std::string wall_quantity = "fines";  // fines | hits | energy
+  std::optional<double> value_max;      // upper end of the colour scale (speed [m/s]); absent: from the frame
+};
+
+/// Paints one view at the stored moment nearest to `time` [s] (absent: the last) and writes a PNG.
+/// Throws OutputError if the run has no such data or the picture cannot be written.
+void render(const std::filesystem::path& run, View view, std::optional<double> time, const std::filesystem::path& png,
+            const RenderOptions& options = {});
+
+/// Whether the run holds what the view needs.
+bool can_render(const std::filesystem::path& run, View view);
+
+}  // namespace puffin::output
