@@ -11,8 +11,8 @@ namespace puffin::lbm::geometry {
 
 /// A box of cubic cells. Cell (i,j,k) has its centre at origin + dx (i,j,k); x runs fastest in `fluid`.
 struct Voxels {
-  Vec3 origin = Vec3::Zero();       // centre of cell (0,0,0)
-  double dx = 0.0;                  // edge of a cell
+  Vec3 origin = Vec3::Zero();  // centre of cell (0,0,0)
+  double dx = 0.0;             // edge of a cell
   std::array<int, 3> size{0, 0, 0};
   std::vector<std::uint8_t> fluid;  // size[0]*size[1]*size[2]; 1: the centre is inside the surface
 

@@ -1,0 +1,47 @@
+#pragma once
+// The walls that carriers meet: the triangles of the device, less its openings.
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "dem/walls.hpp"
+#include "lbm/geometry/triangle_tree.hpp"
+
+namespace puffin::coupling {
+
+/// dem::Walls over a closed triangle mesh that points outwards. Immutable, thread-safe.
+class MeshWalls : public dem::Walls {
+ public:
+  /// `openings`: triangles that carriers pass through. `smooth_angle` [rad]: of touches whose directions differ by less
+  /// only the nearest is kept, so that a curved wall made of facets pushes once, not once a facet.
+  /// Throws std::invalid_argument if tree is null or an opening is out of range.
+  explicit MeshWalls(std::shared_ptr<const lbm::geometry::TriangleTree> tree, const std::vector<int>& openings = {},
+                     double smooth_angle = 0.26);
+
+  /// Walls are felt from the enclosed side only: never through a thin wall, and not by a centre in the solid.
+  void near(const Eigen::Vector3d& centre, double reach, std::vector<dem::WallTouch>& touches) const override;
+  /// From a grid of distances d_i at nodes x_i: d >= d_i - |centre - x_i|, at the nearest node. Openings do not count.
+  double clearance(const Eigen::Vector3d& centre, double limit) const override;
+  /// In the enclosed volume, or outside it with an opening as the nearest surface.
+  bool inside(const Eigen::Vector3d& point) const override;
+  /// The opening triangle that a point outside the enclosed volume lies beyond; nothing if it is inside or in a wall.
+  std::optional<int> beyond_opening(const Eigen::Vector3d& point) const;
+
+ private:
+  std::shared_ptr<const lbm::geometry::TriangleTree> tree_;   // every triangle
+  std::shared_ptr<const lbm::geometry::TriangleTree> walls_;  // without the openings; null if nothing is left
+  std::vector<char> opening_;                                 // per triangle of tree_
+  double cos_smooth_ = 1.0;
+
+  // Distances to the walls and to any surface, on nodes of a coarse grid around the mesh.
+  Eigen::Vector3d first_node_ = Eigen::Vector3d::Zero();
+  double spacing_ = 0.0;  // [m]
+  std::array<int, 3> nodes_{0, 0, 0};
+  std::vector<float> wall_distance_;     // [m] a lower bound
+  std::vector<float> signed_clearance_;  // [m] > 0 inside, < 0 outside; magnitude: a lower bound of the distance to any
+                                         // triangle
+  std::optional<std::size_t> nearest_node(const Eigen::Vector3d& p, Eigen::Vector3d& node) const;
+};
+
+}  // namespace puffin::coupling

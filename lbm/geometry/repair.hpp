@@ -1,0 +1,31 @@
+#pragma once
+// Mend what can be mended without guessing, and say what was done.
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "lbm/geometry/triangle_mesh.hpp"
+
+namespace puffin::lbm::geometry {
+
+struct RepairOptions {
+  double weld_tolerance = 0.0;  // [m]; 0: weld_fraction of the bounding box diagonal
+  double largest_hole = 0.0;    // [m] holes with a longer rim stay open; 0: a twentieth of the bounding box diagonal
+};
+
+/// One thing that was done.
+struct Repair {
+  std::string what;  // "welded vertices", "removed degenerate facets", "removed duplicate facets",
+                     // "turned facets", "filled holes"
+  std::size_t count = 0;
+  std::vector<Vec3> where;  // [m] one place each, at most Defect::places
+  std::string message;
+};
+
+/// Welds, removes degenerate and duplicate facets, turns facets until neighbours agree and the volume of each part that
+/// is not inside another is positive, and closes small holes with facets in the solid "filled-hole". Returns what was
+/// done, in order; what it cannot mend is left for check_surface to name.
+std::vector<Repair> repair(TriangleMesh& mesh, const RepairOptions& options = {});
+
+}  // namespace puffin::lbm::geometry
