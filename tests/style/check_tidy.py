@@ -1,0 +1,54 @@
+#!/usr/bin/env python3
+"""clang-tidy with the .clang-tidy of the root finds nothing in the .cpp files that the build compiles.
+
+usage: check_tidy.py ROOT BUILD_DIR [CLANG_TIDY]
+
+Checks the tracked files that BUILD_DIR/compile_commands.json lists, and through them the headers of our folders. Says
+which tracked .cpp files the build does not compile, so that nothing is left out in silence.
+"""
+
+import json
+import os
+import subprocess
+import sys
+import time
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+from tree import conclude, cpp
+
+
+def compiled(root: Path, build: Path) -> list[Path]:
+    """Tracked .cpp files that the build compiles, relative to root, heaviest first as far as the size tells."""
+    commands = json.loads((build / "compile_commands.json").read_text())
+    known = {(Path(entry["directory"]) / entry["file"]).resolve() for entry in commands}
+    paths = [path for path in cpp(root) if path.suffix == ".cpp" and (root / path).resolve() in known]
+    return sorted(paths, key=lambda path: -(root / path).stat().st_size)
+
+
+def tidy(root: Path, build: Path, program: str, path: Path) -> tuple[Path, float, str]:
+    begin = time.monotonic()
+    run = subprocess.run([program, "--quiet", "-p", str(build), str(path)], cwd=root, capture_output=True, text=True,
+                         check=False)
+    return path, time.monotonic() - begin, run.stdout + run.stderr if run.returncode != 0 else ""
+
+
+def check(root: Path, build: Path, program: str = "clang-tidy") -> list[str]:
+    paths = compiled(root, build)
+    if not paths:
+        return [f"{build} compiles none of our files: is it a build folder of this tree?"]
+    left_out = [path for path in cpp(root) if path.suffix == ".cpp" and path not in set(paths)]
+    jobs = len(os.sched_getaffinity(0))
+    print(f"{len(paths)} files, {jobs} at a time" + "".join(f"\nnot compiled by this build: {p}" for p in left_out))
+    try:
+        with ThreadPoolExecutor(jobs) as pool:
+            results = list(pool.map(lambda path: tidy(root, build, program, path), paths))
+    except FileNotFoundError:
+        return [f"{program} is not there; tools/check installs it"]
+    slowest = max(results, key=lambda result: result[1])
+    print(f"{sum(seconds for _, seconds, _ in results):.0f} s in all, longest {slowest[0]} {slowest[1]:.1f} s")
+    return [f"{path}:\n{output}" for path, _, output in results if output]
+
+
+if __name__ == "__main__":
+    sys.exit(conclude("clang-tidy", check(Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve(), *sys.argv[3:4])))

@@ -1,0 +1,182 @@
+#!/usr/bin/env python3
+"""Each style check finds the fault it is there for, and only that: small trees with one fault each."""
+
+import json
+import shutil
+import tempfile
+import unittest
+from pathlib import Path
+
+import check_files
+import check_format
+import check_layers
+import check_tidy
+
+CONFIGURATION = Path(__file__).resolve().parents[2]
+UNFINISHED = "TO" + "DO"  # in pieces: this file is checked too
+ELSEWHERE = "/".join(("", "home", "someone", "case.toml"))
+
+
+class SmallTree(unittest.TestCase):
+    """A temporary tree; without git, the checks take every file below it."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root = Path(folder.name).resolve()
+
+    def write(self, path: str, content: str) -> None:
+        (self.root / path).parent.mkdir(parents=True, exist_ok=True)
+        (self.root / path).write_text(content)
+
+    def assert_one(self, faults: list[str], *parts: str) -> None:
+        self.assertEqual(len(faults), 1, faults)
+        for part in parts:
+            self.assertIn(part, faults[0])
+
+
+class Layers(SmallTree):
+    def faults(self, path: str, line: str) -> list[str]:
+        self.write(path, "#pragma once\n" + line + "\n")
+        return check_layers.check(self.root)
+
+    def test_lower_layer_must_not_know_a_higher_one(self):
+        self.assert_one(self.faults("lbm/a.hpp", '#include "dem/b.hpp"'), "lbm/a.hpp:2", "nothing of ours")
+
+    def test_carriers_must_not_know_the_lattice(self):
+        self.assert_one(self.faults("dem/a.cpp", '#  include "lbm/b.hpp"'), "dem/a.cpp:2")
+
+    def test_geometry_must_not_know_the_lattice(self):
+        self.assert_one(self.faults("lbm/geometry/a.hpp", '#include "lbm/rows.hpp"'), "knows no lattice")
+
+    def test_only_derivation_may_use_carriers(self):
+        self.assert_one(self.faults("micromodels/a.hpp", '#include "dem/walls.hpp"'), "derivation")
+
+    def test_nobody_may_include_tests(self):
+        self.assert_one(self.faults("tools/puffin/a.cpp", '#include "tests/lbm/a.hpp"'), "tools may include")
+
+    def test_path_must_start_at_the_root(self):
+        self.assert_one(self.faults("lbm/a.cpp", '#include "rows.hpp"'), "from the root")
+
+    def test_solver_must_build_without_vtk(self):
+        self.assert_one(self.faults("cases/a.cpp", "#include <vtkNew.h>"), "without VTK")
+
+    def test_library_must_not_print(self):
+        self.assert_one(self.faults("coupling/a.cpp", 'std::cout << "step";'), "std::cout")
+        self.assert_one(self.faults("coupling/a.cpp", 'printf("step");'), "printf")
+
+    def test_library_must_not_exit(self):
+        self.assert_one(self.faults("dem/a.cpp", "  std::exit(1);"), "std::exit")
+
+    def test_cplusplus_elsewhere_is_a_fault(self):
+        self.assert_one(self.faults("extras/a.cpp", ""), "outside the folders")
+
+    def test_what_the_order_allows_is_in_order(self):
+        for path, line in (
+            ("lbm/geometry/a.hpp", '#include "lbm/geometry/b.hpp"'),
+            ("lbm/a.hpp", '#include "lbm/geometry/b.hpp"'),
+            ("micromodels/derivation/a.hpp", '#include "dem/walls.hpp"'),
+            ("micromodels/derivation/b.hpp", '#include "micromodels/law.hpp"'),
+            ("coupling/a.hpp", '#include "micromodels/derivation/b.hpp"'),
+            ("tools/output/a.cpp", "#include <vtkNew.h>"),
+            ("tests/dem/a.cpp", '#include "tests/dem/b.hpp"'),
+            ("dem/a.cpp", "// std::cout is not for libraries"),
+            ("dem/b.cpp", 'throw std::runtime_error("printf(x)");'),
+        ):
+            self.assertEqual(self.faults(path, line), [], path)
+
+
+class Files(SmallTree):
+    def setUp(self):
+        super().setUp()
+        self.write("lbm/README.md", "Air.\n")
+
+    def test_folder_needs_a_readme(self):
+        self.write("dem/a.hpp", "")
+        self.assert_one(check_files.check(self.root), "dem/", "README.md")
+
+    def test_readme_is_short(self):
+        self.write("lbm/README.md", "line\n" * 41)
+        self.assert_one(check_files.check(self.root), "more than 40 lines")
+
+    def test_other_folders_are_refused(self):
+        self.write("utils/a.txt", "")
+        self.assert_one(check_files.check(self.root), "utils/", "no such top-level folder")
+
+    def test_unfinished_work_is_refused(self):
+        self.write("lbm/a.hpp", f"// {UNFINISHED}: faster\n")
+        self.assert_one(check_files.check(self.root), "lbm/a.hpp:1", UNFINISHED)
+
+    def test_paths_of_a_machine_are_refused(self):
+        self.write("lbm/a.toml", f'file = "{ELSEWHERE}"\n')
+        self.assert_one(check_files.check(self.root), "lbm/a.toml:1", "one machine")
+
+    def test_long_file_needs_a_reason(self):
+        self.write("lbm/a.cpp", "// One table.\n" + "int x;\n" * 400)
+        self.assert_one(check_files.check(self.root), "lbm/a.cpp", "401 lines")
+        self.write("lbm/a.cpp", "// One table.\n// Long because the table is.\n" + "int x;\n" * 400)
+        self.assertEqual(check_files.check(self.root), [])
+
+    def test_dead_links_are_refused(self):
+        self.write("lbm/README.md", "[rows](rows.hpp) [web](https://example.org/x) [here](#part)\n")
+        self.assert_one(check_files.check(self.root), "rows.hpp leads nowhere")
+        self.write("lbm/rows.hpp", "")
+        self.assertEqual(check_files.check(self.root), [])
+
+    def test_binary_files_are_not_read_as_text(self):
+        self.write("lbm/a.bin", "\0" + UNFINISHED)
+        self.assertEqual(check_files.check(self.root), [])
+
+
+class Format(SmallTree):
+    def setUp(self):
+        super().setUp()
+        shutil.copy(CONFIGURATION / ".clang-format", self.root)
+
+    def test_crooked_file_is_named(self):
+        self.write("lbm/straight.cpp", "int x = 1;\n")
+        self.assertEqual(check_format.check(self.root), [])
+        self.write("lbm/crooked.cpp", "int   x=1 ;\n")
+        self.assert_one(check_format.check(self.root), "lbm/crooked.cpp")
+
+    def test_missing_program_is_a_fault(self):
+        self.write("lbm/a.cpp", "int x = 1;\n")
+        self.assert_one(check_format.check(self.root, "no-such-clang-format"), "tools/check installs it")
+
+
+class Tidy(SmallTree):
+    BAD = "inline int f(int x) {\n  if (x == 1) {\n    return 1;\n  } else {\n    return 1;\n  }\n}\n"
+
+    def setUp(self):
+        super().setUp()
+        shutil.copy(CONFIGURATION / ".clang-tidy", self.root)
+
+    def compile(self, *paths: str) -> None:
+        commands = [{"directory": str(self.root), "file": path, "command": f"c++ -I{self.root} -c {path}"}
+                    for path in paths]
+        self.write("build/compile_commands.json", json.dumps(commands))
+
+    def test_suspicious_code_is_a_fault(self):
+        self.write("lbm/a.cpp", self.BAD)
+        self.compile("lbm/a.cpp")
+        self.assert_one(check_tidy.check(self.root, self.root / "build"), "lbm/a.cpp", "bugprone-branch-clone")
+
+    def test_our_headers_are_looked_at(self):
+        self.write("lbm/a.hpp", "#pragma once\n" + self.BAD)
+        self.write("lbm/a.cpp", '#include "lbm/a.hpp"\n')
+        self.compile("lbm/a.cpp")
+        self.assert_one(check_tidy.check(self.root, self.root / "build"), "lbm/a.hpp", "bugprone-branch-clone")
+
+    def test_sound_code_is_in_order(self):
+        self.write("lbm/a.cpp", "int twice(int x) { return 2 * x; }\n")
+        self.compile("lbm/a.cpp")
+        self.assertEqual(check_tidy.check(self.root, self.root / "build"), [])
+
+    def test_build_without_our_files_is_a_fault(self):
+        self.write("lbm/a.cpp", "int x = 1;\n")
+        self.compile()
+        self.assert_one(check_tidy.check(self.root, self.root / "build"), "none of our files")
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=1)
