@@ -39,22 +39,9 @@ struct StlFile {
   double unit = 1e-3;  // [m] length of one unit of the file
   bool operator==(const StlFile&) const = default;
 };
-struct SelectSolid {
-  std::string name;
-  bool operator==(const SelectSolid&) const = default;
-};
-struct SelectPlane {
-  int axis = 0;      // 0 x, 1 y, 2 z
-  bool max = false;  // the face at the largest coordinate
-  bool operator==(const SelectPlane&) const = default;
-};
-struct SelectNear {
-  Vec3 point = Vec3::Zero();  // [m]
-  bool operator==(const SelectNear&) const = default;
-};
 struct Patch {
   std::string name;
-  std::variant<SelectSolid, SelectPlane, SelectNear> select;
+  std::string select;  // "solid:NAME", "plane:x-min", "near:[x,y,z]" [m]: checked, as lbm/geometry/patches.hpp reads it
   bool operator==(const Patch&) const = default;
 };
 struct Geometry {
@@ -341,10 +328,10 @@ struct Output {
 // ---------------------------------------------------------------- the case
 /// Where a value came from. assumed: given, and the line's comment says "assumed: why".
 enum class Origin { given, defaulted, derived, assumed };
-struct Provenance {
+struct ValueSource {
   Origin origin = Origin::given;
   std::string note;  // the reason of an assumption, the formula of a derived value
-  bool operator==(const Provenance&) const = default;
+  bool operator==(const ValueSource&) const = default;
 };
 
 struct Case {
@@ -357,7 +344,7 @@ struct Case {
   Stop stop;
   Output output;
   std::map<std::string, Parameter> reference;
-  std::map<std::string, Provenance> provenance;  // by dotted key, "air.boundary[0].flow_rate"
+  std::map<std::string, ValueSource> provenance;  // by dotted key, "air.boundary[0].flow_rate"
   bool operator==(const Case&) const = default;
 };
 
