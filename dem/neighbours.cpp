@@ -1,0 +1,98 @@
+#include "dem/neighbours.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace puffin::dem {
+namespace {
+
+/// Carriers sorted into cubic cells by a hash of the cell's indices: any extent of space, cost ~ number of carriers.
+class Cells {
+ public:
+  Cells(const std::vector<Eigen::Vector3d>& position, double edge) : edge_(edge) {
+    const std::size_t n = position.size();
+    std::size_t buckets = 64;
+    while (buckets < 2 * n) buckets *= 2;
+    mask_ = buckets - 1;
+    key_.resize(n);
+    begin_.assign(buckets + 1, 0);
+    for (std::size_t i = 0; i < n; ++i) {
+      key_[i] = cell(position[i]);
+      ++begin_[bucket(key_[i]) + 1];
+    }
+    for (std::size_t b = 0; b < buckets; ++b) begin_[b + 1] += begin_[b];
+    members_.resize(n);
+    std::vector<std::int32_t> next(begin_.begin(), begin_.end() - 1);
+    for (std::size_t i = 0; i < n; ++i) members_[next[bucket(key_[i])]++] = static_cast<std::int32_t>(i);
+  }
+
+  using Key = Eigen::Matrix<std::int64_t, 3, 1>;
+  Key cell(const Eigen::Vector3d& x) const {
+    return {static_cast<std::int64_t>(std::floor(x[0] / edge_)), static_cast<std::int64_t>(std::floor(x[1] / edge_)),
+            static_cast<std::int64_t>(std::floor(x[2] / edge_))};
+  }
+  /// Calls use(j) for each carrier j in the cell, in ascending order.
+  template <class Use>
+  void visit(const Key& key, Use use) const {
+    const std::size_t b = bucket(key);
+    for (std::int32_t m = begin_[b]; m < begin_[b + 1]; ++m)
+      if (key_[members_[m]] == key) use(members_[m]);
+  }
+
+ private:
+  std::size_t bucket(const Key& key) const {
+    const auto u = [&](int d) { return static_cast<std::uint64_t>(key[d]); };
+    std::uint64_t h = u(0) * 0x9E3779B97F4A7C15ull ^ u(1) * 0xC2B2AE3D27D4EB4Full ^ u(2) * 0x165667B19E3779F9ull;
+    h ^= h >> 29;
+    return (h * 0xBF58476D1CE4E5B9ull >> 32) & mask_;
+  }
+  double edge_;
+  std::size_t mask_ = 0;
+  std::vector<Key> key_;
+  std::vector<std::int32_t> begin_, members_;
+};
+
+}  // namespace
+
+void build(const Carriers& carriers, Neighbours& neighbours) {
+  const std::size_t n = carriers.size();
+  neighbours.built_at = carriers.position;
+  neighbours.begin.assign(n + 1, 0);
+  neighbours.list.clear();
+  neighbours.valid = true;
+  if (n == 0) return;
+  const double largest = *std::max_element(carriers.radius.begin(), carriers.radius.end());
+  double mean_budget = 0.0;
+  for (const double b : neighbours.budget) mean_budget += b / static_cast<double>(n);
+  const Cells cells(carriers.position, 2.0 * largest + 2.0 * mean_budget);
+
+  // Each pair is found by the partner with the larger budget (the larger place if equal), whose search reaches far
+  // enough.
+  std::vector<std::array<std::int32_t, 2>> pairs;
+  pairs.reserve(8 * n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double budget = neighbours.budget[i], reach = carriers.radius[i] + largest + 2.0 * budget;
+    const Eigen::Vector3d x = carriers.position[i], arm = Eigen::Vector3d::Constant(reach);
+    const auto low = cells.cell(x - arm), high = cells.cell(x + arm);
+    for (std::int64_t cz = low[2]; cz <= high[2]; ++cz)
+      for (std::int64_t cy = low[1]; cy <= high[1]; ++cy)
+        for (std::int64_t cx = low[0]; cx <= high[0]; ++cx)
+          cells.visit({cx, cy, cz}, [&](std::int32_t j) {
+            const double other = neighbours.budget[j];
+            if (other > budget || (other == budget && j >= static_cast<std::int32_t>(i))) return;
+            const double far = carriers.radius[i] + carriers.radius[j] + budget + other;
+            if ((carriers.position[j] - x).squaredNorm() < far * far)
+              pairs.push_back({static_cast<std::int32_t>(i), j});
+          });
+  }
+  for (const auto& [i, j] : pairs) ++neighbours.begin[i + 1], ++neighbours.begin[j + 1];
+  for (std::size_t i = 0; i < n; ++i) neighbours.begin[i + 1] += neighbours.begin[i];
+  neighbours.list.resize(2 * pairs.size());
+  std::vector<std::int32_t> next(neighbours.begin.begin(), neighbours.begin.end() - 1);
+  for (const auto& [i, j] : pairs) neighbours.list[next[i]++] = j, neighbours.list[next[j]++] = i;
+  for (std::size_t i = 0; i < n; ++i)
+    std::sort(neighbours.list.begin() + neighbours.begin[i], neighbours.list.begin() + neighbours.begin[i + 1]);
+}
+
+}  // namespace puffin::dem
