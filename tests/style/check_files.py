@@ -18,6 +18,9 @@ LONG_BECAUSE = re.compile(r"\blong,? because\b", re.IGNORECASE)
 UNFINISHED = re.compile(r"\b(" + "|".join(("TO" + "DO", "FIX" + "ME", "XX" + "X")) + r")\b")
 MACHINE_PATH = re.compile(r"(?<![\w./~$}-])/(" + "|".join(("tmp", "root", "home", "work")) + r")/")
 LINK = re.compile(r"\]\(([^)\s]+)\)")
+# A file named in the text, `folder/file.ext`; capitals stand for a name of the reader's choice.
+NAMED = re.compile(r"`((?:" + "|".join(TOP_FOLDERS) + r")/[a-z0-9_./-]+\.(?:hpp|cpp|md|py|toml|txt))`")
+HISTORY = ("CHANGELOG.md", "docs/decisions/")  # may name what is gone
 
 
 def first_comment(source: str) -> str:
@@ -61,14 +64,18 @@ def check_text(path: Path, content: str) -> list[str]:
 
 
 def check_links(root: Path, path: Path, content: str) -> list[str]:
-    """Links of a Markdown file to files of the repository lead somewhere."""
+    """What a Markdown file links to, or names, in the repository is there."""
     faults = []
+    names_must_exist = not path.as_posix().startswith(HISTORY)
     for number, line in enumerate(content.splitlines(), start=1):
         for target in LINK.findall(line):
             place = target.split("#")[0]
             if place and "://" not in target and not target.startswith("mailto:"):
                 if not (root / path.parent / place).exists():
                     faults.append(f"{path}:{number}: the link {target} leads nowhere")
+        for name in NAMED.findall(line) if names_must_exist else ():
+            if not (root / name).is_file():
+                faults.append(f"{path}:{number}: there is no {name}")
     return faults
 
 

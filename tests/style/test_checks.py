@@ -123,6 +123,13 @@ class Files(SmallTree):
         self.write("lbm/rows.hpp", "")
         self.assertEqual(check_files.check(self.root), [])
 
+    def test_files_that_a_page_names_are_there(self):
+        self.write("lbm/README.md", "See `lbm/rows.hpp`; write `lbm/NAME.hpp`.\n")
+        self.assert_one(check_files.check(self.root), "there is no lbm/rows.hpp")
+        self.write("CHANGELOG.md", "Gone: `lbm/old.hpp`.\n")
+        self.write("lbm/rows.hpp", "")
+        self.assertEqual(check_files.check(self.root), [])
+
     def test_binary_files_are_not_read_as_text(self):
         self.write("lbm/a.bin", "\0" + UNFINISHED)
         self.assertEqual(check_files.check(self.root), [])
