@@ -1,0 +1,133 @@
+#include <gtest/gtest.h>
+
+#include "tests/tools/output/scratch.hpp"
+#include "tools/output/events_file.hpp"
+#include "tools/output/output_error.hpp"
+#include "tools/output/stats_file.hpp"
+
+namespace puffin::output {
+namespace {
+
+/// A record whose members all differ, so that a swapped pair shows.
+EventRecord event(int i) {
+  return {.time_start = 0.001 * i,
+          .time_end = 0.001 * i + 1e-5,
+          .a = 3 * i,
+          .b = i % 2 ? -1 : 3 * i + 1,
+          .triangle = i % 2 ? 3 * i + 2 : -1,
+          .normal_speed = 1.5 + i,
+          .tangential_speed = 2.5 + i,
+          .energy = 1e-10 * (i + 1),
+          .max_force = 1e-3 * (i + 1),
+          .max_overlap = 1e-7 * (i + 1),
+          .detached = 10.0 + i,
+          .attached = 0.25 * i};
+}
+
+void expect_same(const EventRecord& a, const EventRecord& b) {
+  EXPECT_EQ(a.time_start, b.time_start);
+  EXPECT_EQ(a.time_end, b.time_end);
+  EXPECT_EQ(a.a, b.a);
+  EXPECT_EQ(a.b, b.b);
+  EXPECT_EQ(a.triangle, b.triangle);
+  EXPECT_EQ(a.normal_speed, b.normal_speed);
+  EXPECT_EQ(a.tangential_speed, b.tangential_speed);
+  EXPECT_EQ(a.energy, b.energy);
+  EXPECT_EQ(a.max_force, b.max_force);
+  EXPECT_EQ(a.max_overlap, b.max_overlap);
+  EXPECT_EQ(a.detached, b.detached);
+  EXPECT_EQ(a.attached, b.attached);
+}
+
+TEST(Events, ReadBackInOrderWithEveryMember) {
+  const Scratch folder;
+  constexpr int n = 10000;  // more than two chunks, so that blocks are joined
+  {
+    EventsFile file(folder / "events.h5");
+    for (int i = 0; i < n; ++i) file.append(std::vector<EventRecord>{event(i)});
+    EXPECT_EQ(file.size(), n);
+  }
+  const std::vector<EventRecord> back = read_events(folder / "events.h5");
+  ASSERT_EQ(back.size(), static_cast<std::size_t>(n));
+  for (const int i : {0, 1, 4095, 4096, n - 1}) expect_same(back[i], event(i));
+}
+
+TEST(Events, AnEmptyFileReadsBackEmpty) {
+  const Scratch folder;
+  { EventsFile file(folder / "events.h5"); }
+  EXPECT_TRUE(read_events(folder / "events.h5").empty());
+}
+
+TEST(Events, ResumingDropsWhatEndedLater) {
+  const Scratch folder;
+  {
+    EventsFile file(folder / "events.h5");
+    for (int i = 0; i < 100; ++i) file.append(std::vector<EventRecord>{event(i)});
+  }
+  {
+    EventsFile file(folder / "events.h5", 0.0105);  // event 10 ends at 0.01001, event 11 at 0.01101
+    EXPECT_EQ(file.size(), 11);
+    file.append(std::vector<EventRecord>{event(77)});
+  }
+  const std::vector<EventRecord> back = read_events(folder / "events.h5");
+  ASSERT_EQ(back.size(), 12u);
+  expect_same(back[10], event(10));
+  expect_same(back[11], event(77));
+}
+
+TEST(Events, WhatIsFlushedCanBeReadBeforeTheFileIsClosed) {
+  const Scratch folder;
+  EventsFile file(folder / "events.h5");
+  file.append(std::vector<EventRecord>{event(1), event(2)});
+  file.flush();
+  std::filesystem::copy_file(folder / "events.h5", folder / "copy.h5");  // what a kill would leave
+  EXPECT_EQ(read_events(folder / "copy.h5").size(), 2u);
+}
+
+TEST(Stats, ColumnsReadBack) {
+  const Scratch folder;
+  {
+    StatsFile file(folder / "stats.h5", {{"time", "s"}, {"flow_rate", "m^3/s"}});
+    for (int i = 0; i < 3000; ++i) file.append(std::vector<double>{0.1 * i, 1.0 / (i + 1)});
+  }
+  const std::vector<double> rate = read_stats(folder / "stats.h5", "flow_rate");
+  ASSERT_EQ(rate.size(), 3000u);
+  EXPECT_EQ(rate[2999], 1.0 / 3000);
+  EXPECT_THROW(read_stats(folder / "stats.h5", "flow"), OutputError);
+}
+
+TEST(Stats, ResumingDropsLaterRows) {
+  const Scratch folder;
+  const std::vector<StatsColumn> columns{{"time", "s"}, {"x", "1"}};
+  {
+    StatsFile file(folder / "stats.h5", columns);
+    for (int i = 0; i < 10; ++i) file.append(std::vector<double>{1.0 * i, 2.0 * i});
+  }
+  {
+    StatsFile file(folder / "stats.h5", columns, 3.0);
+    file.append(std::vector<double>{3.5, -1.0});
+  }
+  EXPECT_EQ(read_stats(folder / "stats.h5", "x"), (std::vector<double>{0, 2, 4, 6, -1}));
+}
+
+TEST(Hdf5, AnotherFormatOrADamagedFileIsAnOutputError) {
+  const Scratch folder;
+  { StatsFile file(folder / "stats.h5", {{"time", "s"}}); }
+  EXPECT_THROW(read_events(folder / "stats.h5"), OutputError);
+  std::ofstream(folder / "bad.h5") << "this is no HDF5";
+  EXPECT_THROW(read_events(folder / "bad.h5"), OutputError);
+  EXPECT_THROW(read_events(folder / "none.h5"), OutputError);
+  EXPECT_THROW(EventsFile("/proc/events.h5"), OutputError);
+}
+
+TEST(Hdf5, AFullDiskIsAnOutputError) {
+  const Scratch folder;
+  EventsFile file(folder / "events.h5");
+  const std::vector<EventRecord> some(2000, event(3));
+  file.append(some);
+  const FullDisk full(4096);
+  EXPECT_THROW(file.flush(), OutputError);
+}
+
+}  // namespace
+}  // namespace puffin::output

@@ -1,0 +1,119 @@
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "tests/tools/output/scratch.hpp"
+#include "tools/output/output_error.hpp"
+#include "tools/output/output_folder.hpp"
+#include "tools/output/summary.hpp"
+
+namespace puffin::output {
+namespace {
+
+namespace fs = std::filesystem;
+
+void leave_run(const fs::path& folder, const std::string& state, bool with_checkpoint) {
+  fs::create_directories(folder / "vtk");
+  Status status;
+  status.state = state;
+  write_status(folder / "status.json", status);
+  write_whole(folder / "history.csv", "time\n");
+  Summary summary;
+  summary.state = state;
+  if (state == "finished") write_summary(folder / "summary.json", summary);
+  if (!with_checkpoint) return;
+  fs::create_directories(folder / "checkpoints");
+  write_whole(folder / "checkpoints" / "1", "data");
+}
+
+/// The text of the OutputError of opening the folder; empty if it opens.
+std::string refusal(const fs::path& out, bool resume) {
+  try {
+    OutputFolder(out, "x", resume);
+  } catch (const OutputError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST(OutputFolder, AFinishedRunIsNeverOverwritten) {
+  const Scratch folder;
+  leave_run(folder / "run", "finished", true);
+  EXPECT_NE(refusal(folder / "run", false).find("never overwritten"), std::string::npos);
+  EXPECT_NE(refusal(folder / "run", true).find("never overwritten"), std::string::npos);
+  EXPECT_TRUE(fs::exists(folder / "run" / "history.csv"));
+}
+
+TEST(OutputFolder, AnUnfinishedRunWithCheckpointsWantsResume) {
+  const Scratch folder;
+  leave_run(folder / "run", "stopped", true);
+  EXPECT_NE(refusal(folder / "run", false).find("--resume"), std::string::npos);
+  EXPECT_EQ(refusal(folder / "run", true), "");
+  EXPECT_TRUE(fs::exists(folder / "run" / "history.csv"));
+}
+
+TEST(OutputFolder, AnUnfinishedRunWithoutCheckpointsIsClearedOfItsOwnFilesOnly) {
+  const Scratch folder;
+  leave_run(folder / "run", "diverged", false);
+  write_whole(folder / "run" / "notes.txt", "mine");
+  EXPECT_NE(refusal(folder / "run", true).find("without --resume"), std::string::npos);
+  EXPECT_EQ(refusal(folder / "run", false), "");
+  EXPECT_FALSE(fs::exists(folder / "run" / "history.csv"));
+  EXPECT_TRUE(fs::exists(folder / "run" / "notes.txt"));
+}
+
+TEST(OutputFolder, AFolderWithFilesOfTheSameNamesThatAreNotOfARunIsRefused) {
+  const Scratch folder;
+  write_whole(folder / "case.toml", "name = 'mine'");
+  EXPECT_NE(refusal(folder.path(), false).find("is not the folder of a run"), std::string::npos);
+  EXPECT_EQ(text_of(folder / "case.toml"), "name = 'mine'");
+}
+
+TEST(OutputFolder, TheDefaultIsANewFolderAndLatestPointsToIt) {
+  const Scratch folder;
+  const fs::path old = fs::current_path();
+  fs::current_path(folder.path());
+  const OutputFolder first({}, "L Base/1");
+  const OutputFolder second({}, "L Base/1");
+  fs::current_path(old);
+  EXPECT_NE(first.path(), second.path());
+  EXPECT_EQ(fs::canonical(folder / "runs" / "L_Base_1" / "latest"), second.path());
+  EXPECT_EQ(first.path().parent_path(), fs::canonical(folder.path()) / "runs" / "L_Base_1");
+}
+
+TEST(OutputFolder, NothingIsWrittenOutside) {
+  const Scratch folder;
+  const OutputFolder run(folder / "run", "x");
+  EXPECT_EQ(run.file("vtk/../vtk/a.vti"), run.path() / "vtk" / "a.vti");
+  EXPECT_THROW(run.file("../outside"), OutputError);
+  EXPECT_THROW(run.file("vtk/../../outside"), OutputError);
+  EXPECT_THROW(run.file("/etc/outside"), OutputError);
+  fs::create_directory_symlink(folder.path(), run.path() / "link");
+  EXPECT_THROW(run.file("link/outside"), OutputError);
+}
+
+TEST(OutputFolder, AFolderThatCannotBeMadeIsAnOutputErrorWithARemedy) {
+  EXPECT_NE(refusal("/proc/puffin/run", false).find("--out"), std::string::npos);
+}
+
+TEST(OutputFolder, AReadOnlyFolderIsAnOutputError) {
+  if (geteuid() == 0) GTEST_SKIP() << "the administrator may write everywhere";
+  const Scratch folder;
+  fs::create_directory(folder / "run");
+  fs::permissions(folder / "run", fs::perms::owner_read | fs::perms::owner_exec);
+  EXPECT_NE(refusal(folder / "run", false).find("write into"), std::string::npos);
+  fs::permissions(folder / "run", fs::perms::owner_all);
+}
+
+TEST(WriteWhole, AFullDiskLeavesTheOldFileAndNoTemporaryOne) {
+  const Scratch folder;
+  write_whole(folder / "a.txt", "old");
+  {
+    const FullDisk full(100);
+    EXPECT_THROW(write_whole(folder / "a.txt", std::string(1000, 'x')), OutputError);
+  }
+  EXPECT_EQ(text_of(folder / "a.txt"), "old");
+  EXPECT_FALSE(fs::exists(folder / "a.txt.part"));
+}
+
+}  // namespace
+}  // namespace puffin::output

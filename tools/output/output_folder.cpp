@@ -1,0 +1,180 @@
+#include "tools/output/output_folder.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <ctime>
+#include <string_view>
+
+#include "tools/output/output_error.hpp"
+#include "tools/output/summary.hpp"
+
+namespace puffin::output {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Everything a run writes at the top of its folder; nothing else is ever removed.
+constexpr std::array<std::string_view, 16> own_names{
+    "case.toml", "status.json", "log.txt",    "summary.json", "history.csv", "stats.h5",    "events.h5", "probes.csv",
+    "lines.csv", "planes.csv",  "forces.csv", "tracks.csv",   "vtk",         "checkpoints", "images",    "report.html"};
+
+[[noreturn]] void fail(const fs::path& where, const std::string& what, int error) {
+  throw OutputError("cannot " + what + " " + where.string() + ": " + std::strerror(error) +
+                    "; free some space, or choose a folder that can be written with --out");
+}
+
+std::string timestamp() {
+  const std::time_t now = std::time(nullptr);
+  std::tm local{};
+  localtime_r(&now, &local);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y%m%d-%H%M%S", &local);
+  return text;
+}
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) fail(folder, "create the folder", error.value());
+  if (access(folder.c_str(), W_OK) != 0) fail(folder, "write into", errno);
+}
+
+bool has_checkpoints(const fs::path& folder) {
+  std::error_code error;
+  const fs::path checkpoints = folder / "checkpoints";
+  return fs::is_directory(checkpoints, error) && !fs::is_empty(checkpoints, error);
+}
+
+/// A new folder below runs/NAME, also when two runs start within the same second.
+fs::path fresh_folder(const fs::path& parent) {
+  make_folder(parent);
+  const std::string stamp = timestamp();
+  for (int attempt = 1; attempt < 1000; ++attempt) {
+    const fs::path folder = parent / (attempt == 1 ? stamp : stamp + "-" + std::to_string(attempt));
+    std::error_code error;
+    if (fs::create_directory(folder, error)) return folder;
+    if (error) fail(folder, "create the folder", error.value());
+  }
+  throw OutputError(parent.string() + " holds a thousand runs of this second; choose a folder with --out");
+}
+
+/// runs/NAME/latest -> TIMESTAMP, replaced in one move.
+void point_latest(const fs::path& folder) {
+  const fs::path link = folder.parent_path() / "latest";
+  const fs::path temporary = folder.parent_path() / (".latest-" + std::to_string(getpid()));
+  std::error_code error;
+  fs::remove(temporary, error);
+  fs::create_directory_symlink(folder.filename(), temporary, error);
+  if (!error) fs::rename(temporary, link, error);
+  if (error) fail(link, "set the link", error.value());
+}
+
+void refuse_or_clear(const fs::path& folder, bool resume) {
+  const std::string where = folder.string();
+  if (fs::exists(folder / "summary.json") && read_summary(folder / "summary.json").state == "finished") {
+    throw OutputError(where + " holds a finished run, which is never overwritten; choose another folder with --out");
+  }
+  const bool from_a_run = fs::exists(folder / "status.json");
+  if (resume) {
+    if (from_a_run && has_checkpoints(folder)) return;
+    throw OutputError(where + " holds no checkpoint to resume from; start the run without --resume");
+  }
+  if (from_a_run && has_checkpoints(folder)) {
+    throw OutputError(where +
+                      " holds an unfinished run with checkpoints; add --resume to go on with it, or choose another "
+                      "folder with --out");
+  }
+  for (const std::string_view name : own_names) {
+    const fs::path file = folder / name;
+    if (!fs::exists(fs::symlink_status(file))) continue;
+    if (!from_a_run) {
+      throw OutputError(file.string() + " exists but " + where +
+                        " is not the folder of a run; choose an empty folder with --out");
+    }
+    std::error_code error;
+    fs::remove_all(file, error);
+    if (error) fail(file, "remove", error.value());
+  }
+}
+
+}  // namespace
+
+std::string folder_name(const std::string& name) {
+  std::string out;
+  for (const char c : name) {
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' ||
+                       c == '_' || (c == '.' && !out.empty());
+    out += plain ? c : '_';
+  }
+  return out.empty() ? "run" : out;
+}
+
+OutputFolder::OutputFolder(const std::optional<fs::path>& out, const std::string& name, bool resume) {
+  if (out) {
+    make_folder(*out);
+    path_ = fs::canonical(*out);
+    refuse_or_clear(path_, resume);
+    return;
+  }
+  const fs::path parent = fs::absolute(fs::path("runs") / folder_name(name));
+  if (resume) {
+    std::error_code error;
+    path_ = fs::canonical(parent / "latest", error);
+    if (error) throw OutputError(parent.string() + " holds no run to resume; name its folder with --out");
+    refuse_or_clear(path_, true);
+    return;
+  }
+  path_ = fs::canonical(fresh_folder(parent));
+  point_latest(path_);
+}
+
+fs::path OutputFolder::file(const fs::path& relative) const {
+  const fs::path inside = relative.lexically_normal();
+  if (relative.empty() || relative.is_absolute() || inside.empty() || *inside.begin() == "..") {
+    throw OutputError("refused to write " + relative.string() + ": it lies outside the run's folder " + path_.string() +
+                      "; use a plain name");
+  }
+  const fs::path full = path_ / inside;
+  make_folder(full.parent_path());
+  // A link inside the folder must not lead out of it.
+  const fs::path real = fs::canonical(full.parent_path());
+  const fs::path rest = real.lexically_relative(path_);
+  if (rest.empty() || *rest.begin() == "..") {
+    throw OutputError("refused to write " + full.string() + ": a link leads it out of the run's folder " +
+                      path_.string() + "; remove the link");
+  }
+  return full;
+}
+
+void OutputFolder::write_text(const fs::path& relative, const std::string& text) const {
+  write_whole(file(relative), text);
+}
+
+void write_whole(const fs::path& file, const std::string& text) {
+  const fs::path temporary = file.string() + ".part";
+  const int descriptor = open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  if (descriptor < 0) fail(file, "write", errno);
+  std::size_t done = 0;
+  int error = 0;
+  while (done < text.size() && error == 0) {
+    const ssize_t count = write(descriptor, text.data() + done, text.size() - done);
+    if (count >= 0) {
+      done += static_cast<std::size_t>(count);
+    } else if (errno != EINTR) {
+      error = errno;
+    }
+  }
+  if (error == 0 && fsync(descriptor) != 0 && errno != EINVAL) error = errno;
+  if (close(descriptor) != 0 && error == 0) error = errno;
+  if (error == 0 && std::rename(temporary.c_str(), file.c_str()) != 0) error = errno;
+  if (error != 0) {
+    unlink(temporary.c_str());
+    fail(file, "write", error);
+  }
+}
+
+}  // namespace puffin::output

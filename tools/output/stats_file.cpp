@@ -1,0 +1,99 @@
+#include "tools/output/stats_file.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "tools/output/hdf5_handle.hpp"
+
+namespace puffin::output {
+namespace {
+
+constexpr char format[] = "puffin-stats";
+constexpr hsize_t chunk = 1024;  // rows
+
+std::vector<double> read_column(const Hdf5File& file, hid_t dataset) {
+  std::vector<double> values(file.length(dataset));
+  if (!values.empty()) {
+    file.good(H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), "read");
+  }
+  return values;
+}
+
+}  // namespace
+
+struct StatsFile::Impl {
+  Hdf5File file;
+  std::vector<Hdf5Handle> datasets;            // one a column
+  std::vector<std::vector<double>> collected;  // one a column, not yet written
+
+  void write() {
+    for (std::size_t c = 0; c < datasets.size(); ++c) {
+      file.append(datasets[c], H5T_NATIVE_DOUBLE, collected[c].data(), collected[c].size());
+      collected[c].clear();
+    }
+  }
+};
+
+StatsFile::StatsFile(const std::filesystem::path& path, std::vector<StatsColumn> columns,
+                     std::optional<double> resume_after) {
+  const bool resume = resume_after && std::filesystem::exists(path);
+  impl_ = std::make_unique<Impl>(Impl{Hdf5File(path, format, resume), {}, {}});
+  Impl& d = *impl_;
+  d.collected.resize(columns.size());
+  const Hdf5Quiet quiet;
+  if (!resume) {
+    const Hdf5Handle group(H5Gcreate2(d.file.id(), "history", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
+    d.file.good(group, "write");
+    for (const auto& column : columns) {
+      d.datasets.push_back(d.file.create_growing(group, column.name, H5T_IEEE_F64LE, chunk));
+      d.file.set_text(d.datasets.back(), "unit", column.unit);
+    }
+    d.file.flush();
+    return;
+  }
+  const Hdf5Handle group(d.file.good(H5Gopen2(d.file.id(), "history", H5P_DEFAULT), "read"), H5Gclose);
+  for (const auto& column : columns) {
+    d.datasets.emplace_back(d.file.good(H5Dopen2(group, column.name.c_str(), H5P_DEFAULT),
+                                        "find column '" + column.name + "' of an older version in"),
+                            H5Dclose);
+  }
+  if (columns.empty()) return;
+  const std::vector<double> time = read_column(d.file, d.datasets.front());
+  const auto late = std::find_if(time.begin(), time.end(), [&](double t) { return t > *resume_after; });
+  for (const auto& dataset : d.datasets) d.file.cut(dataset, static_cast<hsize_t>(late - time.begin()));
+}
+
+StatsFile::~StatsFile() {
+  try {
+    if (impl_) impl_->write();
+  } catch (const OutputError&) {
+    // A destructor cannot report; whoever needs to know calls flush() first.
+  }
+}
+StatsFile::StatsFile(StatsFile&&) noexcept = default;
+StatsFile& StatsFile::operator=(StatsFile&&) noexcept = default;
+
+void StatsFile::append(std::span<const double> row) {
+  Impl& d = *impl_;
+  if (row.size() != d.collected.size()) {
+    throw std::invalid_argument("stats.h5: a row of " + std::to_string(row.size()) + " values for " +
+                                std::to_string(d.collected.size()) + " columns");
+  }
+  for (std::size_t c = 0; c < row.size(); ++c) d.collected[c].push_back(row[c]);
+  if (!row.empty() && d.collected.front().size() >= chunk) flush();
+}
+
+void StatsFile::flush() {
+  impl_->write();
+  impl_->file.flush();
+}
+
+std::vector<double> read_stats(const std::filesystem::path& path, const std::string& column) {
+  const Hdf5File file = Hdf5File::reading(path, format);
+  const Hdf5Quiet quiet;
+  const std::string name = "history/" + column;
+  const Hdf5Handle dataset(file.good(H5Dopen2(file.id(), name.c_str(), H5P_DEFAULT), "find " + name + " in"), H5Dclose);
+  return read_column(file, dataset);
+}
+
+}  // namespace puffin::output

@@ -1,0 +1,148 @@
+// VTK's XML files back to frames, through VTK's own readers.
+
+#include <vtkCallbackCommand.h>
+#include <vtkCell.h>
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkFieldData.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+#include <vtkStringArray.h>
+#include <vtkXMLImageDataReader.h>
+#include <vtkXMLPolyDataReader.h>
+
+#include "tools/output/output_error.hpp"
+#include "tools/output/vtk_series.hpp"
+
+namespace puffin::output {
+namespace {
+
+/// Reads one file; VTK's own complaints are turned into an OutputError instead of being printed.
+template <class Reader>
+vtkSmartPointer<Reader> read_xml(const std::filesystem::path& file) {
+  if (!std::filesystem::exists(file)) throw OutputError("cannot read " + file.string() + ": there is no such file");
+  auto reader = vtkSmartPointer<Reader>::New();
+  bool failed = false;
+  vtkNew<vtkCallbackCommand> watch;
+  watch->SetClientData(&failed);
+  watch->SetCallback([](vtkObject*, unsigned long, void* flag, void*) { *static_cast<bool*>(flag) = true; });
+  reader->AddObserver("ErrorEvent", watch);
+  reader->SetFileName(file.c_str());
+  if (reader->CanReadFile(file.c_str())) {
+    reader->Update();
+  } else {
+    failed = true;
+  }
+  if (failed) throw OutputError(file.string() + " is damaged or is no VTK file");
+  reader->RemoveAllObservers();
+  return reader;
+}
+
+/// The values of one array, tuple by tuple; empty if there is no such array.
+template <class T>
+std::vector<T> values_of(vtkFieldData* data, const std::string& name) {
+  vtkDataArray* array = data->GetArray(name.c_str());
+  std::vector<T> out;
+  if (!array) return out;
+  out.reserve(static_cast<std::size_t>(array->GetNumberOfValues()));
+  for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i) {
+    for (int c = 0; c < array->GetNumberOfComponents(); ++c) out.push_back(static_cast<T>(array->GetComponent(i, c)));
+  }
+  return out;
+}
+
+std::vector<std::array<float, 3>> vectors_of(vtkFieldData* data, const std::string& name) {
+  const std::vector<float> flat = values_of<float>(data, name);
+  std::vector<std::array<float, 3>> out;
+  for (std::size_t i = 0; i + 2 < flat.size(); i += 3) out.push_back({flat[i], flat[i + 1], flat[i + 2]});
+  return out;
+}
+
+std::vector<std::array<double, 3>> points_of(vtkPolyData* poly) {
+  std::vector<std::array<double, 3>> out(static_cast<std::size_t>(poly->GetNumberOfPoints()));
+  for (std::size_t i = 0; i < out.size(); ++i) poly->GetPoint(static_cast<vtkIdType>(i), out[i].data());
+  return out;
+}
+
+}  // namespace
+
+FieldFrame read_field_frame(const std::filesystem::path& file) {
+  const auto reader = read_xml<vtkXMLImageDataReader>(file);
+  vtkImageData* image = reader->GetOutput();
+  vtkCellData* data = image->GetCellData();
+  FieldFrame frame;
+  frame.dx = image->GetSpacing()[0];
+  for (int c = 0; c < 3; ++c) {
+    frame.size[c] = image->GetDimensions()[c] - 1;
+    frame.origin[c] = image->GetOrigin()[c] + 0.5 * frame.dx;
+  }
+  frame.fluid = values_of<std::uint8_t>(data, "fluid");
+  if (frame.fluid.size() != static_cast<std::size_t>(frame.cells()))
+    throw OutputError(file.string() + " has no cell array 'fluid'");
+  for (int i = 0; i < data->GetNumberOfArrays(); ++i) {
+    const std::string name = data->GetArrayName(i);
+    if (name == "velocity") {
+      frame.velocity = values_of<float>(data, name);
+    } else if (name == "pressure") {
+      frame.pressure = values_of<float>(data, name);
+    } else if (name.rfind("fines_", 0) == 0) {
+      frame.fines.push_back({name.substr(6), values_of<float>(data, name)});
+    } else if (name != "fluid" && name != vtkDataSetAttributes::GhostArrayName()) {
+      frame.more.push_back({name, values_of<float>(data, name)});
+    }
+  }
+  return frame;
+}
+
+CarrierFrame read_carrier_frame(const std::filesystem::path& file) {
+  const auto reader = read_xml<vtkXMLPolyDataReader>(file);
+  vtkPolyData* poly = reader->GetOutput();
+  vtkPointData* data = poly->GetPointData();
+  CarrierFrame frame;
+  frame.position = points_of(poly);
+  frame.id = values_of<std::int32_t>(data, "id");
+  frame.diameter = values_of<float>(data, "diameter");
+  frame.velocity = vectors_of(data, "velocity");
+  frame.spin = vectors_of(data, "spin");
+  frame.fines = values_of<float>(data, "fines");
+  frame.asleep = values_of<std::uint8_t>(data, "asleep");
+  if (frame.diameter.size() != frame.position.size() || frame.velocity.size() != frame.position.size())
+    throw OutputError(file.string() + " lacks the arrays of carriers");
+  return frame;
+}
+
+WallFrame read_wall_frame(const std::filesystem::path& file) {
+  const auto reader = read_xml<vtkXMLPolyDataReader>(file);
+  vtkPolyData* poly = reader->GetOutput();
+  vtkCellData* data = poly->GetCellData();
+  WallFrame frame;
+  frame.vertices = points_of(poly);
+  vtkNew<vtkIdList> corners;
+  for (vtkIdType i = 0; i < poly->GetNumberOfCells(); ++i) {
+    poly->GetCellPoints(i, corners);
+    if (corners->GetNumberOfIds() != 3) throw OutputError(file.string() + " holds cells that are no triangles");
+    frame.triangles.push_back({static_cast<int>(corners->GetId(0)), static_cast<int>(corners->GetId(1)),
+                               static_cast<int>(corners->GetId(2))});
+  }
+  frame.patch = values_of<std::int32_t>(data, "patch");
+  if (frame.patch.size() != frame.triangles.size()) throw OutputError(file.string() + " has no cell array 'patch'");
+  frame.fines = values_of<float>(data, "fines");
+  frame.hits = values_of<float>(data, "hits");
+  frame.energy = values_of<float>(data, "energy");
+  auto* names = vtkStringArray::SafeDownCast(poly->GetFieldData()->GetAbstractArray("patch_names"));
+  const std::vector<int> openings = values_of<int>(poly->GetFieldData(), "patch_opening");
+  for (vtkIdType i = 0; names && i < names->GetNumberOfValues(); ++i) {
+    const bool opening = static_cast<std::size_t>(i) < openings.size() && openings[static_cast<std::size_t>(i)] != 0;
+    frame.patches.push_back({names->GetValue(i), opening});
+  }
+  for (const auto patch : frame.patch) {
+    if (patch < 0 || static_cast<std::size_t>(patch) >= frame.patches.size())
+      throw OutputError(file.string() + " names a patch that it does not list");
+  }
+  return frame;
+}
+
+}  // namespace puffin::output
