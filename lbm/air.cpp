@@ -1,0 +1,345 @@
+#include "lbm/air.hpp"
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace puffin::lbm {
+
+using geometry::Vec3;
+
+namespace {
+
+/// 18 sqrt2 L^2 with L = min(C_s, kappa d), d the wall distance in cells, and C_s raised up to threefold in the sponge.
+std::vector<float> eddy_lengths(const Rows& rows, const LinkGeometry& surface, const AirOptions& options) {
+  std::vector<float> les;
+  if (options.smagorinsky <= 0.0) return les;
+  constexpr double kappa = 0.41;
+  auto walls = std::make_shared<geometry::TriangleMesh>(), outlets = std::make_shared<geometry::TriangleMesh>();
+  walls->vertices = outlets->vertices = surface.mesh->vertices;
+  for (std::size_t t = 0; t < surface.mesh->triangles.size(); ++t) {
+    const BoundaryKind kind = surface.boundaries[surface.patch_of_triangle[t]].kind;
+    if (kind == BoundaryKind::wall || kind == BoundaryKind::pressure_outlet) {
+      auto& mesh = kind == BoundaryKind::wall ? walls : outlets;
+      mesh->triangles.push_back(surface.mesh->triangles[t]);
+      mesh->solid.push_back(0);
+    }
+  }
+  using geometry::TriangleTree;
+  const auto tree_of = [](const std::shared_ptr<geometry::TriangleMesh>& mesh) {
+    return mesh->triangles.empty() ? nullptr : std::make_unique<TriangleTree>(mesh);
+  };
+  const auto wall_tree = tree_of(walls), outlet_tree = tree_of(outlets);
+  les.assign(rows.slots(), 0.0F);
+  const double dx = rows.dx(), reach = options.smagorinsky / kappa * dx;
+  for_each_chunk(rows, [&](int, const Chunk& chunk) {
+    for (int r = chunk.first_run; r < chunk.last_run; ++r)
+      for (int n = 0; n < rows.runs()[r].count; ++n) {
+        const std::ptrdiff_t slot = rows.runs()[r].first + n;
+        const Vec3 x = rows.centre(slot);
+        double length = options.smagorinsky;
+        if (outlet_tree && options.sponge_length > 0.0) {
+          const double d = outlet_tree->closest(x, options.sponge_length).distance;
+          if (d < options.sponge_length) length *= 3.0 - 2.0 * d / options.sponge_length;
+        }
+        if (wall_tree) length = std::min(length, kappa * wall_tree->closest(x, 3.0 * reach).distance / dx);
+        les[slot] = static_cast<float>(18.0 * std::sqrt(2.0) * length * length);
+      }
+  });
+  return les;
+}
+
+template <class T>
+void cross_periodic_faces(const Links& links, Parity last, Populations<T>& p) {
+  for (const auto& image : links.images) {
+    T* f = p.f.data() + image.direction * p.stride;
+    if (last == Parity::even)
+      f[image.ghost] = f[image.active];
+    else
+      f[image.active] = f[image.ghost];
+  }
+}
+
+/// Half-way reflection on both sides of a wall thinner than a cell: what left each side comes back to it.
+template <class T>
+void reflect_at_thin_walls(const Rows& rows, const Links& links, Populations<T>& p) {
+  for (const auto& link : links.thin) {
+    const int i = link.direction, o = d3q19::opposite(i);
+    std::swap(p.f[o * p.stride + link.slot],
+              p.f[i * p.stride + link.slot + neighbour_offset(rows.runs()[link.run], i)]);
+  }
+}
+
+/// Place of the population that comes back along a cut link, between a collision of kind `last` and the next.
+template <class T>
+T& returning(const Run& run, const OpeningLink& link, Parity last, Populations<T>& p) {
+  const int i = link.direction, o = d3q19::opposite(i);
+  if (last == Parity::even) return p.f[i * p.stride + link.slot + neighbour_offset(run, i)];
+  return p.f[o * p.stride + link.slot];
+}
+
+template <class T>
+void apply_inlets(const Rows& rows, const Links& links, const Drive& drive, Parity last, Populations<T>& p) {
+  // Velocity bounce-back: f_in = f_out - 6 w c.u (Ladd, J. Fluid Mech. 271, 285 (1994)); mass flux exactly as asked.
+  for (const auto& link : links.inlets) {
+    const Run& run = rows.runs()[link.run];
+    returning(run, link, last, p) =
+        p.departed(run, link.slot, link.direction, last) + static_cast<T>(link.gain * drive.speed[link.patch]);
+  }
+}
+
+/// Anti-bounce-back: f_in = -f_out + 2 w rho (1 + 9/2 (c.u)^2 - 3/2 u^2), u that of the cell, and zero where it points
+/// into the domain: with back-flow the term would feed itself.
+/// Source: Ginzburg, Verhaeghe & d'Humieres, Commun. Comput. Phys. 3, 427 (2008).
+template <class T>
+std::int64_t apply_outlets(const Air& air, const Drive& drive, Parity last, Populations<T>& p) {
+  std::int64_t cut = 0;
+  const auto& list = air.links.outlets;
+  for (std::size_t k = 0; k < list.size();) {
+    const std::ptrdiff_t slot = list[k].slot;
+    const Run& run = air.rows.runs()[list[k].run];
+    double drho = 0.0;
+    Vec3 j = Vec3::Zero();
+    for (int i = 0; i < d3q19::q; ++i) {
+      const double f = p.departed(run, slot, i, last);
+      const auto& c = d3q19::velocity[i];
+      drho += f;
+      j += f * Vec3(c[0], c[1], c[2]);
+    }
+    Vec3 u = j / (1.0 + drho);
+    if (u.dot(air.normal[list[k].patch]) < 0.0) {
+      u.setZero();
+      ++cut;
+    }
+    for (; k < list.size() && list[k].slot == slot; ++k) {
+      const int i = list[k].direction;
+      const auto& c = d3q19::velocity[i];
+      const double cu = u.dot(Vec3(c[0], c[1], c[2])), rho = 1.0 + drive.density_excess[list[k].patch];
+      const double dynamic = rho * (4.5 * cu * cu - 1.5 * u.squaredNorm());
+      returning(run, list[k], last, p) =
+          static_cast<T>(-p.departed(run, slot, i, last) +
+                         2.0 * d3q19::weight[i] * (drive.density_excess[list[k].patch] + dynamic));
+    }
+  }
+  return cut;
+}
+
+}  // namespace
+
+Parity Air::parity() const {
+  return std::visit([](const auto& p) { return p.next; }, populations);
+}
+
+Air make_air(const geometry::Voxels& voxels, const LinkGeometry& surface, const AirOptions& options) {
+  std::array<bool, 3> periodic{false, false, false};
+  Air air;
+  air.boundaries = surface.boundaries;
+  air.normal.assign(surface.boundaries.size(), Vec3::Zero());
+  for (std::size_t t = 0; t < surface.mesh->triangles.size(); ++t)
+    air.normal[surface.patch_of_triangle[t]] += surface.mesh->area_vector(static_cast<int>(t));
+  for (std::size_t b = 0; b < surface.boundaries.size(); ++b) {
+    if (air.normal[b].norm() > 0.0) air.normal[b].normalize();
+    if (surface.boundaries[b].kind == BoundaryKind::periodic)
+      for (int d = 0; d < 3; ++d) periodic[d] = periodic[d] || std::abs(air.normal[b][d]) > 0.99;
+  }
+  air.options = options;
+  air.rows = Rows(voxels, periodic);
+  air.links = build_links(air.rows, surface, options.wall);
+  const std::size_t slots = air.rows.slots();
+  if (options.double_precision)
+    air.populations = Populations<double>(slots);
+  else
+    air.populations = Populations<float>(slots);
+  for (auto* v : {&air.moments.density_excess, &air.moments.ux, &air.moments.uy, &air.moments.uz, &air.force.x,
+                  &air.force.y, &air.force.z})
+    v->assign(slots, 0.0F);
+  air.run_flags.assign(air.rows.runs().size(), 0);
+  air.run_of_slot.assign(slots, -1);
+  for (std::size_t r = 0; r < air.rows.runs().size(); ++r)
+    for (int n = 0; n < air.rows.runs()[r].count; ++n)
+      air.run_of_slot[air.rows.runs()[r].first + n] = static_cast<std::int32_t>(r);
+  air.les = eddy_lengths(air.rows, surface, options);
+  return air;
+}
+
+KernelReport collide_and_stream(const CollisionConstants& constants, const Drive& drive, Air& air) {
+  std::vector<KernelReport> reports(air.rows.chunks().size());
+  std::visit(
+      [&]<class T>(Populations<T>& p) {
+        KernelInput<T> input;
+        input.f = p.f.data();
+        input.stride = p.stride;
+        input.runs = air.rows.runs().data();
+        input.run_flags = air.run_flags.data();
+        input.parity = p.next;
+        input.constants = constants;
+        input.les = air.les.empty() ? nullptr : air.les.data();
+        for (int d = 0; d < 3; ++d) {
+          input.uniform_force[d] = drive.uniform_force[d];
+          input.forced_everywhere = input.forced_everywhere || drive.uniform_force[d] != 0.0;
+        }
+        const std::array<float*, 3> force{air.force.x.data(), air.force.y.data(), air.force.z.data()};
+        const std::array<float*, 4> moments{air.moments.density_excess.data(), air.moments.ux.data(),
+                                            air.moments.uy.data(), air.moments.uz.data()};
+        for (int d = 0; d < 3; ++d) input.force[d] = force[d];
+        for (int d = 0; d < 4; ++d) input.moments[d] = moments[d];
+        const Kernel<T> kernel = select_kernel<T>(air.options.law, air.options.isa);
+        for_each_chunk(air.rows, [&](int c, const Chunk& chunk) {
+          KernelInput<T> mine = input;
+          mine.first_run = chunk.first_run;
+          mine.last_run = chunk.last_run;
+          reports[c] = kernel(mine);
+        });
+      },
+      air.populations);
+  KernelReport all;
+  for (const KernelReport& r : reports) {
+    all.max_speed2 = std::max(all.max_speed2, r.max_speed2);
+    all.min_density_excess = std::min(all.min_density_excess, r.min_density_excess);
+    all.max_density_excess = std::max(all.max_density_excess, r.max_density_excess);
+    all.limited += r.limited;
+    all.bad += r.bad;
+  }
+  air.limited += all.limited;
+  return all;
+}
+
+void apply_links(const Drive& drive, Air& air) {
+  double wall_speed = 0.0;
+  for (std::size_t b = 0; b < air.boundaries.size(); ++b)
+    if (air.boundaries[b].kind == BoundaryKind::wall && air.boundaries[b].profile) wall_speed = drive.speed[b];
+  std::visit(
+      [&]<class T>(Populations<T>& p) {
+        const Parity last = p.next;
+        const Links& links = air.links;
+        cross_periodic_faces(links, last, p);
+        WallInput<T> input;
+        input.f = p.f.data();
+        input.stride = p.stride;
+        input.runs = air.rows.runs().data();
+        input.walls = links.walls.data();
+        input.parity = last;
+        input.back = links.back.data();
+        input.own = links.own.data();
+        input.moving = links.moving.empty() ? nullptr : links.moving.data();
+        input.wall_speed = wall_speed;
+        const WallKernel<T> kernel = select_wall_kernel<T>(air.options.isa);
+        oneapi::tbb::parallel_for(
+            std::size_t{0}, links.wall_chunks.size() - 1,
+            [&](std::size_t k) {
+              WallInput<T> mine = input;
+              mine.first = links.wall_chunks[k];
+              mine.last = links.wall_chunks[k + 1];
+              kernel(mine);
+            },
+            oneapi::tbb::static_partitioner());
+        apply_inlets(air.rows, links, drive, last, p);
+        air.backflow += apply_outlets(air, drive, last, p);
+        reflect_at_thin_walls(air.rows, links, p);
+        p.next = last == Parity::even ? Parity::odd : Parity::even;
+      },
+      air.populations);
+  ++air.steps;
+}
+
+CellMoments<double> moments_at(const Air& air, std::ptrdiff_t slot) {
+  return std::visit(
+      [&]<class T>(const Populations<T>& p) {
+        const Run& run = air.rows.runs()[air.run_of_slot[slot]];
+        double g[19];
+        for (int i = 0; i < d3q19::q; ++i) g[i] = p.arrived(run, slot, i);
+        const double none[3] = {0, 0, 0};
+        const auto h = detail::hydrodynamics<false>(g, none);
+        return CellMoments<double>{h.drho, h.u[0], h.u[1], h.u[2]};
+      },
+      air.populations);
+}
+
+void find_moments(Air& air) {
+  for_each_chunk(air.rows, [&](int, const Chunk& chunk) {
+    for (int r = chunk.first_run; r < chunk.last_run; ++r)
+      for (int n = 0; n < air.rows.runs()[r].count; ++n) {
+        const std::ptrdiff_t s = air.rows.runs()[r].first + n;
+        const auto m = moments_at(air, s);
+        air.moments.density_excess[s] = static_cast<float>(m.density_excess);
+        air.moments.ux[s] = static_cast<float>(m.ux);
+        air.moments.uy[s] = static_cast<float>(m.uy);
+        air.moments.uz[s] = static_cast<float>(m.uz);
+      }
+  });
+}
+
+double mass_excess(const Air& air) {
+  std::vector<double> part(air.rows.chunks().size(), 0.0);
+  for_each_chunk(air.rows, [&](int c, const Chunk& chunk) {
+    for (int r = chunk.first_run; r < chunk.last_run; ++r)
+      for (int n = 0; n < air.rows.runs()[r].count; ++n)
+        part[c] += moments_at(air, air.rows.runs()[r].first + n).density_excess;
+  });
+  double sum = 0.0;
+  for (const double v : part) sum += v;
+  return sum;
+}
+
+void set_cells(const std::function<InitialCell(const Vec3& centre)>& state, Air& air) {
+  std::visit(
+      [&]<class T>(Populations<T>& p) {
+        for (const Run& run : air.rows.runs())
+          for (int n = 0; n < run.count; ++n) {
+            const std::ptrdiff_t slot = run.first + n;
+            const InitialCell cell = state(air.rows.centre(slot));
+            double g[19];
+            const double u[3] = {cell.velocity[0], cell.velocity[1], cell.velocity[2]}, none[3] = {0, 0, 0};
+            double stress[6];
+            std::copy(cell.stress.begin(), cell.stress.end(), stress);
+            Rr3::assemble<false>(cell.density_excess, 1.0 + cell.density_excess, u, stress, none, g);
+            for (int i = 0; i < d3q19::q; ++i) p.arrived(run, slot, i) = static_cast<T>(g[i]);
+          }
+      },
+      air.populations);
+}
+
+std::array<double, 3> force_on_patch(const Air& air, int boundary) {
+  std::array<double, 3> force{0, 0, 0};
+  std::visit(
+      [&]<class T>(const Populations<T>& p) {
+        const Parity last = p.next == Parity::even ? Parity::odd : Parity::even;
+        for (const WallRun& wall : air.links.walls) {
+          const Run& run = air.rows.runs()[wall.run];
+          int k = 0;
+          for (int i = 1; i < d3q19::q; ++i) {
+            if (!(wall.directions >> i & 1U)) continue;
+            for (int n = 0; n < wall.count; ++n) {
+              if (air.links.wall_patch[wall.coefficient + static_cast<std::size_t>(k) * wall.count + n] != boundary) continue;
+              const std::ptrdiff_t slot = wall.first + n;
+              const double exchanged =
+                  p.departed(run, slot, i, last) + p.arrived(run, slot, d3q19::opposite(i));
+              for (int d = 0; d < 3; ++d) force[d] += exchanged * d3q19::velocity[i][d];
+            }
+            ++k;
+          }
+        }
+      },
+      air.populations);
+  return force;
+}
+
+double mass_through(const Air& air, int boundary) {
+  return std::visit(
+      [&]<class T>(const Populations<T>& p) {
+        const Parity last = p.next == Parity::even ? Parity::odd : Parity::even;
+        double mass = 0.0;
+        for (const auto* list : {&air.links.inlets, &air.links.outlets})
+          for (const auto& link : *list) {
+            if (link.patch != boundary) continue;
+            const Run& run = air.rows.runs()[link.run];
+            mass += p.arrived(run, link.slot, d3q19::opposite(link.direction)) -
+                    p.departed(run, link.slot, link.direction, last);
+          }
+        return mass;
+      },
+      air.populations);
+}
+
+}  // namespace puffin::lbm

@@ -1,0 +1,70 @@
+#include "lbm/kernel.hpp"
+
+#include <type_traits>
+
+namespace puffin::lbm {
+
+namespace baseline {
+Kernel<float> kernel_float(Law law);
+Kernel<double> kernel_double(Law law);
+WallKernel<float> walls_float();
+WallKernel<double> walls_double();
+}  // namespace baseline
+namespace avx2 {
+Kernel<float> kernel_float(Law law);
+Kernel<double> kernel_double(Law law);
+WallKernel<float> walls_float();
+WallKernel<double> walls_double();
+}  // namespace avx2
+namespace avx512 {
+Kernel<float> kernel_float(Law law);
+Kernel<double> kernel_double(Law law);
+WallKernel<float> walls_float();
+WallKernel<double> walls_double();
+}  // namespace avx512
+
+Isa detect_isa() {
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") &&
+      __builtin_cpu_supports("avx512vl"))
+    return Isa::avx512;
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return Isa::avx2;
+  return Isa::baseline;
+}
+
+const char* name(Isa isa) {
+  switch (isa) {
+    case Isa::avx512: return "avx512";
+    case Isa::avx2: return "avx2";
+    case Isa::baseline: break;
+  }
+  return "baseline";
+}
+
+template <class T>
+Kernel<T> select_kernel(Law law, Isa isa) {
+  if constexpr (std::is_same_v<T, float>) {
+    if (isa == Isa::avx512) return avx512::kernel_float(law);
+    return isa == Isa::avx2 ? avx2::kernel_float(law) : baseline::kernel_float(law);
+  } else {
+    if (isa == Isa::avx512) return avx512::kernel_double(law);
+    return isa == Isa::avx2 ? avx2::kernel_double(law) : baseline::kernel_double(law);
+  }
+}
+
+template <class T>
+WallKernel<T> select_wall_kernel(Isa isa) {
+  if constexpr (std::is_same_v<T, float>) {
+    if (isa == Isa::avx512) return avx512::walls_float();
+    return isa == Isa::avx2 ? avx2::walls_float() : baseline::walls_float();
+  } else {
+    if (isa == Isa::avx512) return avx512::walls_double();
+    return isa == Isa::avx2 ? avx2::walls_double() : baseline::walls_double();
+  }
+}
+
+template WallKernel<float> select_wall_kernel<float>(Isa);
+template WallKernel<double> select_wall_kernel<double>(Isa);
+template Kernel<float> select_kernel<float>(Law, Isa);
+template Kernel<double> select_kernel<double>(Law, Isa);
+
+}  // namespace puffin::lbm

@@ -1,0 +1,91 @@
+#pragma once
+// The hot loop: collide and stream in place (AA pattern), one chunk of runs at a time.
+// Source of the pattern: Bailey, Myre, Walsh, Lilja & Saar, ICPP 2009, 550.
+//
+// Two kinds of step alternate. `even` reads direction i of a cell from its own slot i and writes the result to its own
+// slot opposite(i). `odd` reads direction i from slot opposite(i) of the upstream neighbour and writes to slot i of the
+// downstream neighbour. Between steps the population that arrives at a cell is therefore found at
+//   next step even: f[i][s]           next step odd: f[opposite(i)][slot(x - c_i)].
+// Each cell touches its own 19 places only, so chunks may run in any order: equal bits for every number of threads.
+
+#include <cstddef>
+#include <cstdint>
+
+#include "lbm/collision.hpp"
+#include "lbm/run.hpp"
+
+namespace puffin::lbm {
+
+/// Consecutive cells of one run whose wall links point in the same set of directions.
+struct WallRun {
+  std::ptrdiff_t first = 0;      // slot
+  std::int32_t count = 0;        // cells
+  std::uint32_t directions = 0;  // bit i: the link in direction i is cut by a wall
+  std::int32_t run = 0;          // index of the run in Rows
+  std::size_t coefficient = 0;   // first of (number of directions) x count coefficients, direction by direction
+};
+
+enum class Law { rr3, bgk };
+enum class Parity : std::uint8_t { even, odd };
+enum class Isa { baseline, avx2, avx512 };
+
+/// Bits of KernelInput::run_flags.
+inline constexpr std::uint8_t run_forced = 1, run_moments = 2;
+
+/// What the loop saw; merged over chunks in a fixed order.
+struct KernelReport {
+  double max_speed2 = 0.0;          // largest u^2 [lattice units]
+  double min_density_excess = 0.0;
+  double max_density_excess = 0.0;
+  std::int64_t limited = 0;         // cells in which the positivity limiter acted
+  std::int64_t bad = 0;             // cells with non-finite values, |u| or rho outside the limits
+};
+
+template <class T>
+struct KernelInput {
+  T* f = nullptr;                     // populations, 19 arrays of `stride` values
+  std::size_t stride = 0;
+  const Run* runs = nullptr;
+  const std::uint8_t* run_flags = nullptr;  // per run
+  int first_run = 0, last_run = 0;
+  Parity parity = Parity::even;
+  CollisionConstants constants;
+  const float* les = nullptr;         // 18 sqrt2 L^2 per slot, or null: no eddy viscosity
+  double uniform_force[3] = {0, 0, 0};
+  bool forced_everywhere = false;     // a uniform force acts
+  const float* force[3] = {nullptr, nullptr, nullptr};  // per slot, read in runs flagged run_forced
+  float* moments[4] = {nullptr, nullptr, nullptr, nullptr};  // rho-1, ux, uy, uz; written in runs flagged run_moments
+};
+
+/// |u| above this, or |rho-1| above 0.5, counts as bad: the flow has left the range in which the lattice means anything.
+inline constexpr double speed_limit = 0.4;
+
+template <class T>
+using Kernel = KernelReport (*)(const KernelInput<T>&);
+
+/// Cut links of the walls in runs of equal directions: see links.hpp.
+template <class T>
+struct WallInput {
+  T* f = nullptr;
+  std::size_t stride = 0;
+  const Run* runs = nullptr;
+  const WallRun* walls = nullptr;
+  std::size_t first = 0, last = 0;      // [first, last) of walls
+  Parity parity = Parity::even;         // of the collision that has just been done
+  const float* back = nullptr;          // coefficients
+  const float* own = nullptr;
+  const float* moving = nullptr;        // or null
+  double wall_speed = 0.0;              // multiplies `moving` [lattice units]
+};
+template <class T>
+using WallKernel = void (*)(const WallInput<T>&);
+
+/// The best instruction set this processor offers (and the build contains).
+Isa detect_isa();
+const char* name(Isa isa);
+template <class T>
+Kernel<T> select_kernel(Law law, Isa isa);
+template <class T>
+WallKernel<T> select_wall_kernel(Isa isa);
+
+}  // namespace puffin::lbm

@@ -1,0 +1,252 @@
+// The body of one kernel translation unit; included once by each kernel_<isa>.cpp, which sets PUFFIN_ISA to its name.
+// Only raw memory is touched here and nothing but templates over this unit's own SIMD pack is instantiated, so code
+// compiled for a newer processor cannot leak into the rest of the program.
+
+#include <algorithm>
+#include <cmath>
+#include <experimental/simd>
+#include <utility>
+
+#include "lbm/kernel.hpp"
+
+namespace puffin::lbm::PUFFIN_ISA {
+namespace {
+
+namespace stdx = std::experimental;
+
+template <class T>
+using Pack = stdx::native_simd<T>;
+
+template <class T>
+inline Pack<T> load_float(const float* p) {
+  Pack<T> v;
+  v.copy_from(p, stdx::element_aligned);
+  return v;
+}
+
+template <class P>
+inline P minimum(const P& a, const P& b) { return stdx::min(a, b); }
+
+/// One pack of cells: collides g in place. Returns the moments; counts limiter events among the first `lanes` lanes.
+template <class L, bool Forced, class P>
+inline CellMoments<P> collide(P (&g)[19], const P (&force_in)[3], const CollisionConstants& c, const P& les, int lanes,
+                              std::int64_t& limited) {
+  using T = typename P::value_type;
+  auto h = detail::hydrodynamics<Forced>(g, force_in);
+  const CellMoments<P> found{h.drho, h.u[0], h.u[1], h.u[2]};
+  P force[3] = {force_in[0], force_in[1], force_in[2]};
+  if constexpr (L::regularised) {
+    const P trace = (h.pi[0] + h.pi[1] + h.pi[2]) * P(T(1.0 / 3.0));
+    for (int a = 0; a < 3; ++a) h.pi[a] = h.pi[a] - trace;
+    P tau = detail::smagorinsky_tau(h.pi, P(T(1)) / h.rho, P(T(c.tau0)), les);
+    if (c.rescale != 1.0) {
+      // New time step dt' = r dt: rho' = 1 + r^2 (rho-1), u' = r u, F' = r^2 F, Pi' = r (tau'/tau) (rho'/rho) Pi.
+      const P r(T(c.rescale)), r2(T(c.rescale * c.rescale));
+      const P tau_new = P(T(c.tau0_rescaled)) + r * (tau - P(T(c.tau0)));
+      const P drho_new = r2 * h.drho;
+      const P factor = r * (tau_new / tau) * ((P(T(1)) + drho_new) / h.rho);
+      for (auto& pi : h.pi) pi = pi * factor;
+      for (auto& u : h.u) u = u * r;
+      for (auto& f : force) f = f * r2;
+      h.drho = drho_new;
+      h.rho = P(T(1)) + drho_new;
+      tau = tau_new;
+    }
+    const P keep = P(T(1)) - P(T(1)) / tau;
+    P p[6];
+    for (int n = 0; n < 6; ++n) p[n] = keep * h.pi[n];
+    L::template assemble<Forced>(h.drho, h.rho, h.u, p, force, g);
+    // Positivity: f_i >= w_i/10. The smallest g_i/w_i over axes and diagonals decides; the stress is scaled down if not.
+    P low_axis = minimum(minimum(minimum(g[1], g[2]), minimum(g[3], g[4])), minimum(g[5], g[6]));
+    P low_diagonal = minimum(minimum(minimum(minimum(g[7], g[8]), minimum(g[9], g[10])),
+                                     minimum(minimum(g[11], g[12]), minimum(g[13], g[14]))),
+                             minimum(minimum(g[15], g[16]), minimum(g[17], g[18])));
+    const P lowest = minimum(minimum(g[0] * P(T(3)), low_axis * P(T(18))), low_diagonal * P(T(36)));
+    const auto negative = lowest < P(T(-0.9));
+    if (stdx::any_of(negative)) [[unlikely]] {
+      P equilibrium[19];
+      const P zero[6] = {P(T(0)), P(T(0)), P(T(0)), P(T(0)), P(T(0)), P(T(0))};
+      L::template assemble<Forced>(h.drho, h.rho, h.u, zero, force, equilibrium);
+      P scale(T(1));
+      for (int i = 0; i < 19; ++i) {
+        const P floor(T(-0.9 * d3q19::weight[i]));
+        const P room = equilibrium[i] - floor, drop = equilibrium[i] - g[i];
+        P s = room / stdx::max(drop, P(T(1e-30)));
+        where(!(g[i] < floor), s) = P(T(1));
+        where(s < P(T(0)), s) = P(T(0));
+        scale = minimum(scale, s);
+      }
+      for (auto& n : p) n = n * scale;
+      L::template assemble<Forced>(h.drho, h.rho, h.u, p, force, g);
+      for (int l = 0; l < lanes; ++l) limited += negative[l] ? 1 : 0;
+    }
+  } else {
+    const P tau = detail::smagorinsky_tau(h.pi, P(T(1)) / h.rho, P(T(c.tau0)), les);
+    const P omega = P(T(1)) / tau;
+    const P u2 = h.u[0] * h.u[0] + h.u[1] * h.u[1] + h.u[2] * h.u[2];
+    for (int i = 0; i < 19; ++i) {
+      const P w(T(d3q19::weight[i]));
+      const P cx(T(d3q19::velocity[i][0])), cy(T(d3q19::velocity[i][1])), cz(T(d3q19::velocity[i][2]));
+      const P cu = cx * h.u[0] + cy * h.u[1] + cz * h.u[2];
+      const P eq = w * (h.drho + h.rho * (P(T(3)) * cu + P(T(4.5)) * cu * cu - P(T(1.5)) * u2));
+      g[i] = g[i] + omega * (eq - g[i]);
+      if constexpr (Forced) {
+        const P cf = cx * force[0] + cy * force[1] + cz * force[2];
+        const P uf = h.u[0] * force[0] + h.u[1] * force[1] + h.u[2] * force[2];
+        g[i] = g[i] + (P(T(1)) - P(T(0.5)) * omega) * w * (P(T(3)) * (cf - uf) + P(T(9)) * cu * cf);
+      }
+    }
+  }
+  return found;
+}
+
+template <class T, class L, bool Forced>
+void sweep_run(const KernelInput<T>& in, const Run& run, std::uint8_t flags, KernelReport& report) {
+  using P = Pack<T>;
+  constexpr int width = static_cast<int>(P::size());
+  T* source[19];
+  T* target[19];
+  for (int i = 0; i < 19; ++i) {
+    const int o = d3q19::opposite(i);
+    const auto& c = d3q19::velocity[i];
+    const auto& b = d3q19::velocity[o];
+    if (in.parity == Parity::even) {
+      source[i] = in.f + i * in.stride + run.first;
+      target[i] = in.f + o * in.stride + run.first;
+    } else {
+      source[i] = in.f + o * in.stride + run.first + b[0] + run.shift[b[1] + 1][b[2] + 1];
+      target[i] = in.f + i * in.stride + run.first + c[0] + run.shift[c[1] + 1][c[2] + 1];
+    }
+  }
+  P lane([](auto l) { return static_cast<T>(static_cast<int>(l)); });
+  P max_speed2(T(0)), min_drho(T(0)), max_drho(T(0));
+  alignas(stdx::memory_alignment_v<P>) T buffer[width];
+  for (int n = 0; n < run.count; n += width) {
+    const int lanes = std::min(width, run.count - n);
+    const bool full = lanes == width;
+    P g[19];
+    if (full) {
+      for (int i = 0; i < 19; ++i) g[i].copy_from(source[i] + n, stdx::element_aligned);
+    } else {
+      for (int i = 0; i < 19; ++i) {
+        for (int l = 0; l < width; ++l) buffer[l] = source[i][n + std::min(l, lanes - 1)];
+        g[i].copy_from(buffer, stdx::vector_aligned);
+      }
+    }
+    const std::ptrdiff_t s = run.first + n;
+    P force[3] = {P(T(0)), P(T(0)), P(T(0))};
+    if constexpr (Forced) {
+      for (int d = 0; d < 3; ++d) {
+        force[d] = P(T(in.uniform_force[d]));
+        if (flags & run_forced) force[d] = force[d] + load_float<T>(in.force[d] + s);
+      }
+    }
+    const P les = in.les ? load_float<T>(in.les + s) : P(T(0));
+    const auto m = collide<L, Forced>(g, force, in.constants, les, lanes, report.limited);
+    if (full) {
+      for (int i = 0; i < 19; ++i) g[i].copy_to(target[i] + n, stdx::element_aligned);
+    } else {
+      for (int i = 0; i < 19; ++i) {
+        g[i].copy_to(buffer, stdx::vector_aligned);
+        for (int l = 0; l < lanes; ++l) target[i][n + l] = buffer[l];
+      }
+    }
+    const P speed2 = m.ux * m.ux + m.uy * m.uy + m.uz * m.uz;
+    const auto inside = lane < P(T(lanes));
+    // Written so that a NaN counts as bad.
+    const auto good = (speed2 < P(T(speed_limit * speed_limit))) && (m.density_excess < P(T(0.5))) &&
+                      (m.density_excess > P(T(-0.5)));
+    if (!stdx::all_of(good || !inside)) [[unlikely]]
+      for (int l = 0; l < lanes; ++l) report.bad += good[l] ? 0 : 1;
+    max_speed2 = stdx::max(max_speed2, speed2);  // lanes beyond the run repeat its last cell
+    min_drho = stdx::min(min_drho, m.density_excess);
+    max_drho = stdx::max(max_drho, m.density_excess);
+    if (flags & run_moments) {
+      const P* value[4] = {&m.density_excess, &m.ux, &m.uy, &m.uz};
+      for (int k = 0; k < 4; ++k) {
+        value[k]->copy_to(buffer, stdx::vector_aligned);
+        for (int l = 0; l < lanes; ++l) in.moments[k][s + l] = static_cast<float>(buffer[l]);
+      }
+    }
+  }
+  report.max_speed2 = std::max<double>(report.max_speed2, stdx::hmax(max_speed2));
+  report.min_density_excess = std::min<double>(report.min_density_excess, stdx::hmin(min_drho));
+  report.max_density_excess = std::max<double>(report.max_density_excess, stdx::hmax(max_drho));
+}
+
+template <class T, class L>
+KernelReport sweep(const KernelInput<T>& in) {
+  KernelReport report;
+  for (int r = in.first_run; r < in.last_run; ++r) {
+    const std::uint8_t flags = in.run_flags[r];
+    if (in.forced_everywhere || (flags & run_forced))
+      sweep_run<T, L, true>(in, in.runs[r], flags, report);
+    else
+      sweep_run<T, L, false>(in, in.runs[r], flags, report);
+  }
+  return report;
+}
+
+/// Reflection at the walls for `lanes` cells of one wall run, the first at offset n (links.hpp has the equations).
+/// Width of V: a pack, or one cell.
+template <class T, class V, class Load, class LoadFloat, class Store>
+inline void reflect(const WallInput<T>& in, const WallRun& wall, int n, const Load& load, const LoadFloat& load_float_at,
+                    const Store& store) {
+  const Run& run = in.runs[wall.run];
+  const auto offset = [&](int i) {
+    const auto& c = d3q19::velocity[i];
+    return c[0] + run.shift[c[1] + 1][c[2] + 1];
+  };
+  V incoming[18];
+  T* target[18];
+  V imbalance = constant<V>(0);
+  double weight = 0.0;
+  int links = 0;
+  for (std::uint32_t bits = wall.directions; bits != 0; bits &= bits - 1, ++links) {
+    const int i = __builtin_ctz(bits), o = d3q19::opposite(i);
+    T* here = in.f + o * in.stride + wall.first + n;           // own slot of the returning direction
+    T* beyond = in.f + i * in.stride + wall.first + n + offset(i);  // slot behind the wall
+    T* behind = in.f + o * in.stride + wall.first + n + offset(o);
+    T* own = in.f + i * in.stride + wall.first + n;
+    if (in.parity == Parity::odd) std::swap(here, beyond), std::swap(behind, own);
+    const std::size_t at = wall.coefficient + static_cast<std::size_t>(links) * wall.count + n;
+    const V a = load_float_at(in.back + at), b = load_float_at(in.own + at);
+    const V out = load(here);
+    V f = out + a * (load(behind) - out) + b * (load(own) - out);
+    if (in.moving) f = f + constant<V>(in.wall_speed) * load_float_at(in.moving + at);
+    incoming[links] = f;
+    target[links] = beyond;
+    imbalance = imbalance + (out - f);
+    weight += d3q19::weight[i];
+  }
+  int k = 0;
+  for (std::uint32_t bits = wall.directions; bits != 0; bits &= bits - 1, ++k)
+    store(target[k], incoming[k] + constant<V>(d3q19::weight[__builtin_ctz(bits)] / weight) * imbalance);
+}
+
+template <class T>
+void walls(const WallInput<T>& in) {
+  using P = Pack<T>;
+  constexpr int width = static_cast<int>(P::size());
+  for (std::size_t w = in.first; w < in.last; ++w) {
+    const WallRun& wall = in.walls[w];
+    int n = 0;
+    for (; n + width <= wall.count; n += width)
+      reflect<T, P>(
+          in, wall, n, [](const T* p) { return P(p, stdx::element_aligned); }, [](const float* p) { return load_float<T>(p); },
+          [](T* p, const P& v) { v.copy_to(p, stdx::element_aligned); });
+    for (; n < wall.count; ++n)
+      reflect<T, T>(
+          in, wall, n, [](const T* p) { return *p; }, [](const float* p) { return static_cast<T>(*p); },
+          [](T* p, T v) { *p = v; });
+  }
+}
+
+}  // namespace
+
+WallKernel<float> walls_float() { return &walls<float>; }
+WallKernel<double> walls_double() { return &walls<double>; }
+Kernel<float> kernel_float(Law law) { return law == Law::rr3 ? &sweep<float, Rr3> : &sweep<float, Bgk>; }
+Kernel<double> kernel_double(Law law) { return law == Law::rr3 ? &sweep<double, Rr3> : &sweep<double, Bgk>; }
+
+}  // namespace puffin::lbm::PUFFIN_ISA

@@ -1,0 +1,285 @@
+#include "lbm/links.hpp"
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <stdexcept>
+
+#include "lbm/populations.hpp"
+
+namespace puffin::lbm {
+
+using geometry::TriangleMesh;
+using geometry::TriangleTree;
+using geometry::Vec3;
+
+namespace {
+
+/// What cuts one link.
+struct Cut {
+  std::int8_t direction = 0;
+  bool thin = false;       // the neighbour is active as well
+  std::int16_t patch = 0;
+  float q = 0.5F;          // distance to the surface over the length of the link
+};
+
+/// The surface without its periodic faces, and the shifts under which it repeats.
+class CutFinder {
+ public:
+  CutFinder(const Rows& rows, const LinkGeometry& surface) : rows_(rows), surface_(surface) {
+    const TriangleMesh& mesh = *surface.mesh;
+    auto kept = std::make_shared<TriangleMesh>();
+    kept->vertices = mesh.vertices;
+    kept->solids = mesh.solids;
+    for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
+      if (surface.boundaries[surface.patch_of_triangle[t]].kind == BoundaryKind::periodic) continue;
+      kept->triangles.push_back(mesh.triangles[t]);
+      kept->solid.push_back(mesh.solid[t]);
+      original_.push_back(t);
+    }
+    if (!kept->triangles.empty()) tree_ = std::make_unique<TriangleTree>(kept);
+    shifts_.push_back(Vec3::Zero());
+    for (int d = 0; d < 3; ++d) {
+      if (!rows.periodic()[d]) continue;
+      const std::size_t n = shifts_.size();
+      for (std::size_t k = 0; k < n; ++k)
+        for (const double sign : {-1.0, 1.0})
+          shifts_.push_back(shifts_[k] + sign * rows.dx() * rows.box()[d] * Vec3::Unit(d));
+    }
+  }
+
+  /// All cut links of one active cell. `missed` counts links that leave the fluid without a crossing.
+  std::vector<Cut> cuts(const Run& run, std::ptrdiff_t slot, std::size_t& missed) const {
+    std::vector<Cut> found;
+    const Vec3 centre = rows_.centre(slot);
+    bool candidate = false;
+    for (int i = 1; i < d3q19::q && !candidate; ++i) candidate = is_solid(slot + neighbour_offset(run, i));
+    const double reach = 1.4143 * rows_.dx();
+    for (std::size_t k = 0; k < shifts_.size() && !candidate && tree_; ++k)
+      candidate = tree_->closest(centre + shifts_[k], reach).triangle >= 0;
+    if (!candidate) return found;
+    for (int i = 1; i < d3q19::q; ++i) {
+      const auto& c = d3q19::velocity[i];
+      const bool solid = is_solid(slot + neighbour_offset(run, i));
+      double t = 2.0;
+      int triangle = -1;
+      for (const Vec3& shift : shifts_) {
+        if (!tree_) break;
+        const auto hit = tree_->first_hit(centre + shift, rows_.dx() * Vec3(c[0], c[1], c[2]), 1.0);
+        if (hit && hit->t < t) {
+          t = hit->t;
+          triangle = original_[hit->triangle];
+        }
+      }
+      const auto patch = static_cast<std::int16_t>(triangle >= 0 ? surface_.patch_of_triangle[triangle] : -1);
+      if (solid) {
+        if (triangle < 0) ++missed;
+        found.push_back({static_cast<std::int8_t>(i), false, patch, static_cast<float>(std::clamp(t, 0.0, 1.0))});
+      } else if (triangle >= 0 && t < 1.0 - 1e-9) {
+        found.push_back({static_cast<std::int8_t>(i), true, patch, static_cast<float>(t)});
+      } else if (i > 6 && closed_corner(run, slot, c)) {
+        found.push_back({static_cast<std::int8_t>(i), true, -1, 0.5F});
+      }
+    }
+    return found;
+  }
+
+ private:
+  bool is_solid(std::ptrdiff_t slot) const {
+    if (rows_.is_active(slot)) return false;
+    const auto c = rows_.cell(slot);
+    return rows_.active_slot(c[0], c[1], c[2]) < 0;
+  }
+  /// A diagonal between two active cells whose common neighbours are both solid passes through an edge of the wall.
+  bool closed_corner(const Run& run, std::ptrdiff_t slot, const std::array<int, 3>& c) const {
+    int solid = 0;
+    for (int i = 1; i <= 6; ++i) {
+      const auto& a = d3q19::velocity[i];
+      if (a[0] * c[0] + a[1] * c[1] + a[2] * c[2] == 1) solid += is_solid(slot + neighbour_offset(run, i));
+    }
+    return solid == 2;
+  }
+
+  const Rows& rows_;
+  const LinkGeometry& surface_;
+  std::unique_ptr<TriangleTree> tree_;
+  std::vector<int> original_;  // triangle of the reduced mesh -> triangle of the surface
+  std::vector<Vec3> shifts_;
+};
+
+/// Weights of f_out(x-c) and f_own for a wall at distance q; zero where the cells they come from are cut off.
+std::array<float, 2> bouzidi_weights(double q, bool behind_open, bool own_valid) {
+  if (q < 0.5) return {behind_open ? static_cast<float>(1.0 - 2.0 * q) : 0.0F, 0.0F};
+  return {0.0F, own_valid ? static_cast<float>(1.0 - 1.0 / (2.0 * q)) : 0.0F};
+}
+
+}  // namespace
+
+Links build_links(const Rows& rows, const LinkGeometry& surface, WallScheme scheme) {
+  const auto& runs = rows.runs();
+  const CutFinder finder(rows, surface);
+  // Find the cuts of every run in parallel, then lay them out in order.
+  std::vector<std::vector<std::vector<Cut>>> of_run(runs.size());
+  std::vector<std::size_t> missed(runs.size(), 0);
+  oneapi::tbb::parallel_for(std::size_t{0}, runs.size(), [&](std::size_t r) {
+    of_run[r].resize(runs[r].count);
+    for (int n = 0; n < runs[r].count; ++n) of_run[r][n] = finder.cuts(runs[r], runs[r].first + n, missed[r]);
+  });
+
+  Links links;
+  for (const std::size_t m : missed) links.missed += m;
+  int wall_patch = -1;  // patch of links without a triangle
+  bool any_moving = false;
+  for (std::size_t b = 0; b < surface.boundaries.size(); ++b)
+    if (surface.boundaries[b].kind == BoundaryKind::wall) {
+      if (wall_patch < 0) wall_patch = static_cast<int>(b);
+      any_moving = any_moving || static_cast<bool>(surface.boundaries[b].profile);
+    }
+  const auto kind_of = [&](const Cut& cut) {
+    return cut.patch < 0 ? BoundaryKind::wall : surface.boundaries[cut.patch].kind;
+  };
+  const double dx = rows.dx();
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    const Run& run = runs[r];
+    int previous_end = -1;
+    for (int n = 0; n < run.count; ++n) {
+      const auto& cuts = of_run[r][n];
+      if (cuts.empty()) continue;
+      const std::ptrdiff_t slot = run.first + n;
+      const Vec3 centre = rows.centre(slot);
+      std::uint32_t walls = 0, thin = 0, any = 0;
+      for (const Cut& cut : cuts) {
+        any |= 1U << cut.direction;
+        if (cut.thin) {
+          thin |= 1U << cut.direction;
+          const std::ptrdiff_t other = slot + neighbour_offset(run, cut.direction);
+          const auto p = static_cast<std::int16_t>(cut.patch < 0 ? wall_patch : cut.patch);
+          if (slot < other) links.thin.push_back({slot, static_cast<std::int32_t>(r), cut.direction, p});
+        } else if (kind_of(cut) == BoundaryKind::wall) {
+          walls |= 1U << cut.direction;
+        } else {
+          const auto& boundary = surface.boundaries[cut.patch];
+          const auto& c = d3q19::velocity[cut.direction];
+          const Vec3 direction(c[0], c[1], c[2]);
+          OpeningLink link{slot, static_cast<std::int32_t>(r), cut.direction, cut.patch, 0.0};
+          if (boundary.kind == BoundaryKind::velocity_inlet) {
+            link.gain = -6.0 * d3q19::weight[cut.direction] *
+                        direction.dot(boundary.profile(centre + static_cast<double>(cut.q) * dx * direction));
+            links.inlets.push_back(link);
+          } else {
+            links.outlets.push_back(link);
+          }
+        }
+      }
+      if (walls == 0) continue;
+      if (previous_end == n && links.walls.back().directions == walls) {
+        ++links.walls.back().count;
+      } else {
+        links.walls.push_back({slot, 1, walls, static_cast<std::int32_t>(r), 0});
+      }
+      previous_end = n + 1;
+    }
+  }
+
+  // Coefficients, direction by direction within a wall run.
+  std::size_t total = 0;
+  for (auto& w : links.walls) {
+    w.coefficient = total;
+    total += static_cast<std::size_t>(w.count) * std::popcount(w.directions);
+  }
+  links.back.assign(total, 0.0F);
+  links.own.assign(total, 0.0F);
+  links.wall_patch.assign(total, 0);
+  if (any_moving) links.moving.assign(total, 0.0F);
+  for (const auto& w : links.walls) {
+    const Run& run = runs[w.run];
+    for (int n = 0; n < w.count; ++n) {
+      const std::ptrdiff_t slot = w.first + n;
+      const auto& cuts = of_run[w.run][slot - run.first];
+      std::uint32_t any = 0, thin = 0;
+      for (const Cut& cut : cuts) {
+        any |= 1U << cut.direction;
+        if (cut.thin) thin |= 1U << cut.direction;
+      }
+      int k = 0;
+      for (int i = 1; i < d3q19::q; ++i) {
+        if (!(w.directions >> i & 1U)) continue;
+        const auto cut = std::find_if(cuts.begin(), cuts.end(), [&](const Cut& c) { return c.direction == i; });
+        const std::size_t at = w.coefficient + static_cast<std::size_t>(k++) * w.count + n;
+        const int o = d3q19::opposite(i);
+        const double q = scheme == WallScheme::halfway ? 0.5 : cut->q;
+        const auto weights = bouzidi_weights(q, !(any >> o & 1U), !(thin >> o & 1U));
+        links.back[at] = weights[0];
+        links.own[at] = weights[1];
+        const int patch = cut->patch < 0 ? wall_patch : cut->patch;
+        links.wall_patch[at] = static_cast<std::int16_t>(patch);
+        if (any_moving && surface.boundaries[patch].profile) {
+          // Reflected at a moving surface: -6 w c.u_wall, over the weight of f_out (2 for q < 1/2 halves, Bouzidi eq. 9).
+          const auto& c = d3q19::velocity[i];
+          const Vec3 direction(c[0], c[1], c[2]);
+          const Vec3 u = surface.boundaries[patch].profile(rows.centre(slot) + q * dx * direction);
+          const double share = q < 0.5 ? 1.0 : 1.0 / (2.0 * q);
+          links.moving[at] = static_cast<float>(-6.0 * d3q19::weight[i] * share * direction.dot(u));
+        }
+      }
+    }
+  }
+  // Parts of about 512 wall cells.
+  links.wall_chunks.push_back(0);
+  int cells = 0;
+  for (std::size_t w = 0; w < links.walls.size(); ++w) {
+    cells += links.walls[w].count;
+    if (cells >= 512 || w + 1 == links.walls.size()) {
+      links.wall_chunks.push_back(w + 1);
+      cells = 0;
+    }
+  }
+
+  // Inlets: the flow through the links equals mean speed times the true area of the patch.
+  links.opening_cells_area.assign(surface.boundaries.size(), 0.0);
+  for (std::size_t b = 0; b < surface.boundaries.size(); ++b) {
+    const Boundary& boundary = surface.boundaries[b];
+    if (boundary.kind != BoundaryKind::velocity_inlet && boundary.kind != BoundaryKind::pressure_outlet) continue;
+    double area = 0.0;
+    Vec3 normal = Vec3::Zero();
+    for (std::size_t t = 0; t < surface.patch_of_triangle.size(); ++t)
+      if (surface.patch_of_triangle[t] == static_cast<int>(b)) {
+        area += surface.mesh->area(static_cast<int>(t));
+        normal += 0.5 * surface.mesh->area_vector(static_cast<int>(t));
+      }
+    normal.normalize();
+    double gain = 0.0, lattice_area = 0.0;
+    std::size_t count = 0;
+    for (const auto* list : {&links.inlets, &links.outlets})
+      for (const auto& link : *list)
+        if (link.patch == static_cast<int>(b)) {
+          const auto& c = d3q19::velocity[link.direction];
+          lattice_area += 6.0 * d3q19::weight[link.direction] * normal.dot(Vec3(c[0], c[1], c[2]));
+          gain += link.gain;
+          ++count;
+        }
+    links.opening_cells_area[b] = lattice_area;
+    if (count == 0)
+      throw std::runtime_error("the opening '" + boundary.patch + "' touches no cell of the fluid; dx is too large for it");
+    if (boundary.kind == BoundaryKind::velocity_inlet) {
+      if (!(gain > 0.0)) throw std::runtime_error("the profile of the inlet '" + boundary.patch + "' does not point into the fluid");
+      const double scale = area / (dx * dx) / gain;
+      for (auto& link : links.inlets)
+        if (link.patch == static_cast<int>(b)) link.gain *= scale;
+    }
+  }
+
+  for (const auto& [ghost, active] : rows.periodic_images()) {
+    const auto g = rows.cell(ghost);
+    for (int i = 1; i < d3q19::q; ++i) {
+      const auto& c = d3q19::velocity[i];
+      const std::ptrdiff_t from = rows.slot(g[0] - c[0], g[1] - c[1], g[2] - c[2]);
+      if (from >= 0 && rows.is_active(from)) links.images.push_back({static_cast<std::int16_t>(i), ghost, active});
+    }
+  }
+  return links;
+}
+
+}  // namespace puffin::lbm

@@ -1,0 +1,79 @@
+#pragma once
+// Links: where the line from a cell centre to a neighbour is cut by the surface. Built once, flat lists, no search later.
+//
+// Walls are imposed through the cut links (sharp immersed boundary): the population that leaves the cell along the link
+// comes back after reflection at the exact wall distance q (in units of the link), by linear interpolation:
+//   q <  1/2:  f_in = 2q f_out + (1-2q) f_out(x - c)        q >= 1/2:  f_in = f_out/(2q) + (1 - 1/(2q)) f_own,
+// f_own the post-collision population of the cell in the returning direction.
+// Source: Bouzidi, Firdaouss & Lallemand, Phys. Fluids 13, 3452 (2001). Each cell's mass imbalance over its cut links is
+// returned over them in proportion to the lattice weights, so that the air's mass is conserved to round-off.
+// Half-way bounce-back is the same with q = 1/2 everywhere.
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "lbm/geometry/triangle_tree.hpp"
+#include "lbm/kernel.hpp"
+#include "lbm/rows.hpp"
+
+namespace puffin::lbm {
+
+enum class BoundaryKind { wall, velocity_inlet, pressure_outlet, periodic };
+enum class WallScheme { bouzidi, halfway };
+
+/// What happens at one patch of the surface.
+struct Boundary {
+  std::string patch;
+  BoundaryKind kind = BoundaryKind::wall;
+  /// Moving wall: velocity of the surface at a point, in units of the wall speed; empty: at rest.
+  /// Velocity inlet: profile at a point relative to the section mean, pointing into the domain.
+  std::function<geometry::Vec3(const geometry::Vec3&)> profile;
+};
+
+/// One link cut by an opening of the domain.
+struct OpeningLink {
+  std::ptrdiff_t slot = 0;
+  std::int32_t run = 0;
+  std::int16_t direction = 0;
+  std::int16_t patch = 0;
+  double gain = 0.0;  // velocity inlet: population gained for a unit mean speed: -6 w c.profile
+};
+
+struct Links {
+  std::vector<WallRun> walls;          // in the order of the rows
+  std::vector<std::size_t> wall_chunks;  // boundaries of the parts given to threads
+  std::vector<float> back, own;        // weights of f_out(x-c) and f_own; that of f_out is 1 - back - own
+  std::vector<float> moving;           // population gained for a unit wall speed; empty when no wall moves
+  std::vector<std::int16_t> wall_patch;  // per coefficient
+  std::vector<OpeningLink> inlets, outlets;  // sorted by slot
+  /// Links between two active cells with a wall between them (thinner than a cell); never in `walls`.
+  struct ThinLink {
+    std::ptrdiff_t slot = 0;
+    std::int32_t run = 0;
+    std::int16_t direction = 0;
+    std::int16_t patch = 0;
+  };
+  std::vector<ThinLink> thin;
+  /// Populations that cross a periodic face: direction, ghost slot, the active slot it mirrors.
+  struct Image {
+    std::int16_t direction = 0;
+    std::ptrdiff_t ghost = 0, active = 0;
+  };
+  std::vector<Image> images;
+  std::vector<double> opening_cells_area;  // per boundary: area of the openings on the lattice [dx^2]
+  std::size_t missed = 0;                  // links out of the fluid on which no surface was found (taken as q = 1)
+};
+
+/// Surface, patches and how they act; `patch_of_triangle` indexes `boundaries`.
+struct LinkGeometry {
+  const geometry::TriangleMesh* mesh = nullptr;
+  std::vector<int> patch_of_triangle;
+  std::vector<Boundary> boundaries;
+};
+
+/// Finds every cut link. Throws std::runtime_error if an opening got no link at all.
+Links build_links(const Rows& rows, const LinkGeometry& surface, WallScheme scheme);
+
+}  // namespace puffin::lbm
