@@ -59,6 +59,10 @@ void cross_periodic_faces(const Links& links, Parity last, Populations<T>& p) {
     else
       f[image.active] = f[image.ghost];
   }
+  for (const auto& image : links.corner_images) {
+    T* f = p.f.data() + image.direction * p.stride;
+    f[image.ghost] = f[image.active];
+  }
 }
 
 /// Half-way reflection on both sides of a wall thinner than a cell: what left each side comes back to it.

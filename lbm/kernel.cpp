@@ -9,18 +9,24 @@ Kernel<float> kernel_float(Law law);
 Kernel<double> kernel_double(Law law);
 WallKernel<float> walls_float();
 WallKernel<double> walls_double();
+FluxKernel<float> fluxes_float();
+FluxKernel<double> fluxes_double();
 }  // namespace baseline
 namespace avx2 {
 Kernel<float> kernel_float(Law law);
 Kernel<double> kernel_double(Law law);
 WallKernel<float> walls_float();
 WallKernel<double> walls_double();
+FluxKernel<float> fluxes_float();
+FluxKernel<double> fluxes_double();
 }  // namespace avx2
 namespace avx512 {
 Kernel<float> kernel_float(Law law);
 Kernel<double> kernel_double(Law law);
 WallKernel<float> walls_float();
 WallKernel<double> walls_double();
+FluxKernel<float> fluxes_float();
+FluxKernel<double> fluxes_double();
 }  // namespace avx512
 
 Isa detect_isa() {
@@ -62,6 +68,19 @@ WallKernel<T> select_wall_kernel(Isa isa) {
   }
 }
 
+template <class T>
+FluxKernel<T> select_flux_kernel(Isa isa) {
+  if constexpr (std::is_same_v<T, float>) {
+    if (isa == Isa::avx512) return avx512::fluxes_float();
+    return isa == Isa::avx2 ? avx2::fluxes_float() : baseline::fluxes_float();
+  } else {
+    if (isa == Isa::avx512) return avx512::fluxes_double();
+    return isa == Isa::avx2 ? avx2::fluxes_double() : baseline::fluxes_double();
+  }
+}
+
+template FluxKernel<float> select_flux_kernel<float>(Isa);
+template FluxKernel<double> select_flux_kernel<double>(Isa);
 template WallKernel<float> select_wall_kernel<float>(Isa);
 template WallKernel<double> select_wall_kernel<double>(Isa);
 template Kernel<float> select_kernel<float>(Law, Isa);

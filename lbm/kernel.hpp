@@ -80,6 +80,22 @@ struct WallInput {
 template <class T>
 using WallKernel = void (*)(const WallInput<T>&);
 
+/// Mass fluxes through the faces of the cells of some runs: see mass_fluxes.hpp.
+template <class T>
+struct FluxInput {
+  const T* f = nullptr;
+  std::size_t stride = 0;
+  const Run* runs = nullptr;
+  int first_run = 0, last_run = 0;
+  Parity next = Parity::even;
+  const std::uint16_t* routes[3] = {nullptr, nullptr, nullptr};  // per face: shares of the eight diagonals, 2 bits each
+  const std::uint8_t* open[3] = {nullptr, nullptr, nullptr};
+  double* mass[3] = {nullptr, nullptr, nullptr};
+  double* density = nullptr;
+};
+template <class T>
+using FluxKernel = void (*)(const FluxInput<T>&);
+
 /// The best instruction set this processor offers (and the build contains).
 Isa detect_isa();
 const char* name(Isa isa);
@@ -87,5 +103,7 @@ template <class T>
 Kernel<T> select_kernel(Law law, Isa isa);
 template <class T>
 WallKernel<T> select_wall_kernel(Isa isa);
+template <class T>
+FluxKernel<T> select_flux_kernel(Isa isa);
 
 }  // namespace puffin::lbm

@@ -276,7 +276,12 @@ Links build_links(const Rows& rows, const LinkGeometry& surface, WallScheme sche
     for (int i = 1; i < d3q19::q; ++i) {
       const auto& c = d3q19::velocity[i];
       const std::ptrdiff_t from = rows.slot(g[0] - c[0], g[1] - c[1], g[2] - c[2]);
-      if (from >= 0 && rows.is_active(from)) links.images.push_back({static_cast<std::int16_t>(i), ghost, active});
+      if (from < 0) continue;
+      const bool mirrored = rows.active_slot(g[0] - c[0], g[1] - c[1], g[2] - c[2]) >= 0;
+      if (rows.is_active(from))
+        links.images.push_back({static_cast<std::int16_t>(i), ghost, active});
+      else if (mirrored)
+        links.corner_images.push_back({static_cast<std::int16_t>(i), ghost, active});
     }
   }
   return links;

@@ -3,17 +3,38 @@
 //
 // In one step the density of a cell changes by exactly what its links brought less what they took. An axis link is a
 // flux through its face; a diagonal link goes half through each of its two corner routes (all through one if the cell
-// of the other is solid), so the six faces balance the density to round-off of the populations.
+// of the other is solid). So the fluxes of the six faces balance the change of density to round-off.
+
+#include <array>
+#include <cstdint>
+#include <vector>
 
 #include "lbm/air.hpp"
 #include "lbm/scalars/face_fluxes.hpp"
 
 namespace puffin::lbm {
 
-/// Marks which faces are open; call once. Sizes all arrays of `fluxes`.
-void open_faces(const Air& air, FaceFluxes& fluxes);
+/// How the links of one air map onto faces; built once.
+struct FluxRoutes {
+  std::array<std::vector<std::uint16_t>, 3> shares;  // per face: halves (0, 1, 2) of eight diagonal links, 2 bits each
+  struct Opening {
+    std::ptrdiff_t slot;       // active cell
+    std::int32_t run;
+    std::int16_t direction;    // link that is cut by the opening
+    std::int8_t axis, sign;    // face that takes its flux: +-axis of the cell
+    std::ptrdiff_t face;       // slot that holds this face
+  };
+  std::vector<Opening> openings;
+  struct Copy {
+    std::ptrdiff_t ghost, active;
+  };
+  std::vector<Copy> images;    // periodic ghosts repeat the faces of the cells they mirror
+};
 
-/// Fluxes of the last step and the density after it. Faces stay as open_faces set them.
-void find_mass_fluxes(const Air& air, FaceFluxes& fluxes);
+/// Finds the routes and marks which faces are open; sizes all arrays of `fluxes`.
+FluxRoutes find_routes(const Air& air, FaceFluxes& fluxes);
+
+/// Fluxes of the last step and the density after it.
+void find_mass_fluxes(const Air& air, const FluxRoutes& routes, FaceFluxes& fluxes);
 
 }  // namespace puffin::lbm
