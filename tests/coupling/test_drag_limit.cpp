@@ -1,0 +1,126 @@
+#include "coupling/drag_limit.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "tests/coupling/boxes.hpp"
+
+namespace {
+using namespace puffin;
+using namespace puffin::coupling;
+using namespace puffin::coupling::testing;
+
+const Scale scale{2e-4, 4e-7, 1.2};
+
+/// Air and carriers that exchange drag and nothing else: what one coupling step does to them.
+struct Exchange {
+  Exchange(int count, double drag, double carrier_mass, Eigen::Vector3d low, Eigen::Vector3d high)
+      : rows(full_box({16, 16, 16}, scale.dx)),
+        cells(rows),
+        position(places(rows, count, low, high)),
+        velocity(count),
+        beta(count, drag),
+        mass(carrier_mass),
+        air(rows.slots(), Eigen::Vector3d::Zero()),
+        spreader(rows.slots()) {
+    stencils.build(cells, position, std::vector<double>(count, 0.5e-4), all(position.size()));
+    std::mt19937 random(2);
+    std::uniform_real_distribution<double> uniform(-10.0, 10.0);
+    for (auto& v : velocity) v = {uniform(random), uniform(random), uniform(random)};
+  }
+  /// Velocity of the air at the carriers [m/s].
+  Eigen::Vector3d seen(const Stencil& s) const {
+    Eigen::Vector3d u = Eigen::Vector3d::Zero();
+    for (const StencilEntry& e : stencils.entries(s)) u += e.weight * air[e.slot];
+    return u;
+  }
+  void step(double interval, bool limited) {
+    std::vector<double> b = beta, scratch(beta.size());
+    if (limited) limit_drag(stencils, interval, scale, spreader, scratch, b);
+    reduced = b;
+    std::vector<Eigen::Vector3d> impulse(beta.size());
+    for (const Stencil& s : stencils.stencils()) {
+      const int p = s.carrier;
+      const double a = interval * b[p] / mass;
+      const Eigen::Vector3d v = (velocity[p] + a * seen(s)) / (1.0 + a);  // the mover's implicit drag
+      impulse[p] = mass * (v - velocity[p]);
+      velocity[p] = v;
+    }
+    for (const Stencil& s : stencils.stencils())
+      for (const StencilEntry& e : stencils.entries(s))
+        air[e.slot] -= e.weight * impulse[s.carrier] / scale.cell_mass();
+  }
+  double largest_slip() const {
+    double largest = 0.0;
+    for (const Stencil& s : stencils.stencils()) largest = std::max(largest, (seen(s) - velocity[s.carrier]).norm());
+    return largest;
+  }
+  Eigen::Vector3d momentum() const {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (const auto& v : velocity) sum += mass * v;
+    for (const auto& u : air) sum += scale.cell_mass() * u;
+    return sum;
+  }
+  lbm::Rows rows;
+  CellIndex cells;
+  std::vector<Eigen::Vector3d> position, velocity;
+  std::vector<double> beta, reduced;
+  double mass;
+  std::vector<Eigen::Vector3d> air;
+  Spreader spreader;
+  Stencils stencils;
+};
+
+/// sum_p b_p |s_p|^2: the norm in which the slips must decay.
+double norm(const Exchange& x) {
+  double sum = 0.0;
+  for (const Stencil& s : x.stencils.stencils())
+    sum += x.reduced[s.carrier] * (x.seen(s) - x.velocity[s.carrier]).squaredNorm();
+  return sum;
+}
+
+TEST(DragLimit, OneHeavyCarrierUnderAnyDragBringsItsAirToItsOwnSpeed) {
+  // b = beta/G and K b D = 1 for one carrier: the sampled velocity becomes the carrier's in one step; rounding only.
+  Exchange x(1, 1.0, 1e-6, {7, 7, 7}, {8, 8, 8});
+  const double before = x.largest_slip();
+  x.step(2 * scale.dt, true);
+  EXPECT_LT(x.largest_slip(), 1e-6 * before);  // the carrier itself slows by 1/(K m) = 1e-13/1e-6
+}
+
+TEST(DragLimit, AThousandCarriersInAFewCellsNeverOvershoot) {
+  // sum beta D / (rho dx^3) of a cell: 1,000 * 1e-7 * 8e-7 / 9.6e-15 / 27 = 0.3, and 30,000 with the larger drag. The
+  // norm may not grow by more than rounding.
+  for (const double drag : {1e-7, 1e-2}) {
+    for (const double mass : {3e-10, 3e-3}) {
+      Exchange x(1000, drag, mass, {6, 6, 6}, {8, 8, 8});
+      const Eigen::Vector3d momentum = x.momentum();
+      double exchanged = 0.0;
+      for (const auto& v : x.velocity) exchanged += mass * v.norm();
+      x.step(2 * scale.dt, true);
+      double last = norm(x);
+      for (int n = 0; n < 50; ++n) {
+        x.step(2 * scale.dt, true);
+        const double now = norm(x);
+        EXPECT_LE(now, last * (1.0 + 1e-12)) << drag << ' ' << mass;
+        last = now;
+      }
+      EXPECT_LT((x.momentum() - momentum).norm(), 1e-12 * exchanged) << drag << ' ' << mass;
+    }
+  }
+}
+
+TEST(DragLimit, WithoutItTheSameLoadBlowsUp) {
+  Exchange x(1000, 1e-2, 3e-3, {6, 6, 6}, {8, 8, 8});  // heavy carriers: nothing but the air can give way
+  const double first = x.largest_slip();
+  for (int n = 0; n < 10; ++n) x.step(2 * scale.dt, false);
+  EXPECT_GT(x.largest_slip(), 1e3 * first);
+}
+
+TEST(DragLimit, ABedBelowTheLimitKeepsItsDragExactly) {
+  // G_p <= max_j g_j <= 1,000 * beta D / (rho dx^3) * (largest weight 8/27) = 0.25: no change of any bit.
+  Exchange x(1000, 1e-11, 3e-10, {6, 6, 6}, {8, 8, 8});
+  x.step(scale.dt, true);
+  EXPECT_EQ(x.reduced, x.beta);
+}
+}  // namespace
