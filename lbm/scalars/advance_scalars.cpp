@@ -1,0 +1,257 @@
+#include "lbm/scalars/advance_scalars.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "lbm/scalars/busy_runs.hpp"
+#include "lbm/scalars/check_fluxes.hpp"
+#include "lbm/scalars/diffuse_lines.hpp"
+#include "lbm/scalars/max_steps.hpp"
+#include "lbm/scalars/run_faces.hpp"
+#include "lbm/scalars/sweep.hpp"
+
+namespace puffin::lbm {
+
+namespace {
+
+std::optional<double> fixed_value(const ScalarLaw& law, int patch) {
+  return patch < static_cast<int>(law.fixed.size()) ? law.fixed[patch] : std::nullopt;
+}
+
+/// What does not change during one update.
+struct Update {
+  const Rows& rows;
+  const FaceFluxes& fluxes;
+  const ScalarOptions& options;
+  ScalarFields& fields;
+  ScalarBudget& budget;
+
+  double* concentration(int k) const { return fields.work.concentration.data() + k * rows.slots(); }
+  double* out_high(int k) const { return fields.work.out_high.data() + k * rows.slots(); }
+  double* out_low(int k) const { return fields.work.out_low.data() + k * rows.slots(); }
+
+  /// Calls visit(run, index) for all computed runs, chunk by chunk in parallel. `prepare` makes what a chunk shares.
+  template <class Visit>
+  void for_each_run(const Visit& visit) const {
+    const auto& chunks = rows.chunks();
+    tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {
+      std::vector<SweepScalar> scalars(fields.scalars());
+      for (int r = chunks[c].first_run; r < chunks[c].last_run; ++r)
+        if (fields.work.computed[r]) visit(rows.runs()[r], scalars);
+    });
+  }
+};
+
+void check(const Update& u, double steps) {
+  if (!(steps >= 0.0) || !std::isfinite(steps))
+    throw std::invalid_argument("scalars: the number of air steps must be >= 0");
+  if (u.options.scalar.size() != u.fields.amount.size() || u.budget.left.size() != u.fields.amount.size())
+    throw std::invalid_argument(
+        "scalars: " + std::to_string(u.fields.amount.size()) + " fields, " + std::to_string(u.options.scalar.size()) +
+        " laws, " + std::to_string(u.budget.left.size()) + " budgets: there must be one of each for every scalar");
+  if (!(u.options.cfl > 0.0 && u.options.cfl < 1.0))
+    throw std::invalid_argument("the CFL number of the scalars must lie between 0 and 1");
+  for (const ScalarLaw& law : u.options.scalar) {
+    if (!(law.diffusivity >= 0.0) || !std::isfinite(law.diffusivity))
+      throw std::invalid_argument("the diffusivity of a scalar must be >= 0");
+    for (const auto& value : law.fixed)
+      if (value && !(*value >= 0.0)) throw std::invalid_argument("the fixed value of a scalar must be >= 0");
+  }
+  if (u.fields.work.checked) return;
+  check_fluxes(u.rows, u.fluxes, u.fields.work);
+  for (const auto& faces : u.fields.work.openings)
+    for (const auto& face : faces)
+      for (const auto& patches : u.budget.left)
+        if (face.patch >= static_cast<int>(patches.size()))
+          throw std::invalid_argument("the budget has too few patches");
+  u.fields.work.checked = true;
+}
+
+/// How far the carried air is from the lattice's, where it was carried last.
+double air_mismatch(const Update& u) {
+  std::vector<double> worst(u.rows.runs().size(), 0.0);
+  u.for_each_run([&](const Run& run, auto&) {
+    double most = 0.0;
+    for (std::ptrdiff_t s = run.first; s < run.first + run.count; ++s)
+      most = std::max(most, std::abs(u.fields.air[s] - u.fluxes.density[s]) / u.fluxes.density[s]);
+    worst[u.fields.work.run_of[run.first]] = most;
+  });
+  double most = 0.0;
+  for (const double w : worst) most = std::max(most, w);
+  return most;
+}
+
+/// theta = density - elapsed * (net outflow), and the concentrations. The fluxes are constant during an update, so the
+/// air of a run that joins later needs no history.
+void prepare(const Update& u, double elapsed) {
+  u.for_each_run([&](const Run& run, auto&) {
+    double* air = u.fields.air.data();
+    for (std::ptrdiff_t s = run.first; s < run.first + run.count; ++s) air[s] = u.fluxes.density[s];
+    if (elapsed > 0.0)
+      for (int d = 0; d < 3; ++d) {
+        const double* mass = u.fluxes.mass[d].data();
+        const std::uint8_t* open = u.fluxes.open[d].data();
+        const std::ptrdiff_t low = offset_low(run, d);
+        for (std::ptrdiff_t s = run.first; s < run.first + run.count; ++s)
+          air[s] -= elapsed * ((open[s] ? mass[s] : 0.0) - (open[s + low] ? mass[s + low] : 0.0));
+      }
+    for (int k = 0; k < u.fields.scalars(); ++k) {
+      const double* amount = u.fields.amount[k].data();
+      double* y = u.concentration(k);
+      for (std::ptrdiff_t s = run.first; s < run.first + run.count; ++s)
+        y[s] = amount[s] > dust ? amount[s] / air[s] : 0.0;
+    }
+  });
+}
+
+/// What the closed faces of absorbing walls take, before the sweep; books it by cell.
+void absorb(const Update& u, int d, const Run& run, int k, double exchange) {
+  const std::uint8_t* open = u.fluxes.open[d].data();
+  const std::ptrdiff_t low = offset_low(run, d);
+  for (std::ptrdiff_t s = run.first; s < run.first + run.count; ++s) {
+    const double taken = 2.0 * exchange * u.concentration(k)[s] * ((open[s] == 0) + (open[s + low] == 0));
+    u.fields.amount[k][s] -= taken;
+    u.budget.absorbed_at[k][s] += taken;
+  }
+}
+
+/// Gives the openings of direction d what they bring, and books both ways. In the order of the faces, serial.
+void exchange_openings(const Update& u, int d, double steps, const std::vector<double>& exchange) {
+  for (const auto& face : u.fields.work.openings[d]) {
+    const std::ptrdiff_t at = face.ghost_is_high ? face.cell : face.ghost;
+    if (u.fluxes.open[d][at] != 2) continue;
+    const double flux = steps * u.fluxes.mass[d][at];
+    const double inflow = std::max(face.ghost_is_high ? -flux : flux, 0.0);
+    for (int k = 0; k < u.fields.scalars(); ++k) {
+      double& out = face.ghost_is_high ? u.out_high(k)[face.cell] : u.out_low(k)[face.cell];
+      double& in = face.ghost_is_high ? u.out_low(k)[face.ghost] : u.out_high(k)[face.ghost];
+      const auto value = fixed_value(u.options.scalar[k], face.patch);
+      if (value) out += 2.0 * exchange[k] * u.concentration(k)[face.cell];
+      in = value ? (inflow + 2.0 * exchange[k]) * *value : 0.0;
+      if (out > 0.0) u.budget.left[k][face.patch].add(out);
+      if (in > 0.0) u.budget.entered[k][face.patch].add(in);
+    }
+  }
+}
+
+void sweep(const Update& u, const SweepKernel& kernel, int d, double steps, const std::vector<double>& exchange) {
+  if (u.rows.box()[d] == 1 && u.rows.periodic()[d]) return;  // one cell, its own neighbour
+  const ScalarWork& work = u.fields.work;
+  const int scalars = u.fields.scalars();
+  const auto view = [&](const Run& run, std::vector<SweepScalar>& views) {
+    for (int k = 0; k < scalars; ++k)
+      views[k] = {u.options.scalar[k].scheme,
+                  exchange[k],
+                  u.fields.amount[k].data() + run.first,
+                  u.concentration(k) + run.first,
+                  u.out_high(k) + run.first,
+                  u.out_low(k) + run.first};
+    return SweepRun{run.count,
+                    offset_low(run, d),
+                    offset_high(run, d),
+                    u.fluxes.mass[d].data() + run.first,
+                    u.fluxes.open[d].data() + run.first,
+                    steps,
+                    u.fields.air.data() + run.first};
+  };
+  for (int k = 0; k < scalars; ++k)
+    for (const auto& [ghost, cell] : work.periodic[d]) u.concentration(k)[ghost] = u.concentration(k)[cell];
+  u.for_each_run([&](const Run& run, std::vector<SweepScalar>& views) {
+    kernel.outgoing(view(run, views), views.data(), scalars);
+    for (int k = 0; k < scalars; ++k)
+      if (u.options.scalar[k].wall == WallRule::absorb && exchange[k] > 0.0) absorb(u, d, run, k, exchange[k]);
+  });
+  for (int k = 0; k < scalars; ++k)
+    for (const auto& [ghost, cell] : work.periodic[d]) {
+      u.out_high(k)[ghost] = u.out_high(k)[cell];
+      u.out_low(k)[ghost] = u.out_low(k)[cell];
+    }
+  exchange_openings(u, d, steps, exchange);
+  u.for_each_run(
+      [&](const Run& run, std::vector<SweepScalar>& views) { kernel.update(view(run, views), views.data(), scalars); });
+  for (int k = 0; k < scalars; ++k) {  // a ghost may lie beside other cells in the other directions
+    for (const auto& face : work.openings[d]) u.out_high(k)[face.ghost] = u.out_low(k)[face.ghost] = 0.0;
+    for (const auto& [ghost, cell] : work.periodic[d]) u.out_high(k)[ghost] = u.out_low(k)[ghost] = 0.0;
+  }
+}
+
+/// The most steps that explicit diffusion allows inside a sweep, see sweep.hpp: with nu = steps * rate, the air never
+/// below half,
+///   faces * steps * diffusivity <= (1 - nu)^2 * least_air / 2.
+double explicit_steps(const ScalarLaw& law, double rate, double least_air) {
+  const bool half_cells = law.wall == WallRule::absorb ||
+                          std::any_of(law.fixed.begin(), law.fixed.end(), [](const auto& v) { return v.has_value(); });
+  const double b = (half_cells ? 4.0 : 2.0) * law.diffusivity / (0.5 * least_air);
+  const double p = 2.0 * rate + b;
+  return 2.0 / (p + std::sqrt(std::max(p * p - 4.0 * rate * rate, 0.0)));
+}
+
+/// Which scalars diffuse inside the sweeps, and the length of the sub-step.
+struct Plan {
+  double steps;
+  bool any_implicit;
+  std::vector<bool> implicit;  // [scalar]
+};
+
+Plan plan(const Update& u, const StepLimit& limit, double remaining) {
+  double longest = std::min(limit.steps, remaining);
+  Plan p{longest, false, std::vector<bool>(u.fields.scalars(), false)};
+  for (int k = 0; k < u.fields.scalars(); ++k) {
+    const ScalarLaw& law = u.options.scalar[k];
+    if (law.diffusivity == 0.0) continue;
+    const double allowed = explicit_steps(law, u.options.cfl / limit.steps, limit.least_air);
+    if (1.5 * allowed < longest)
+      p.any_implicit = p.implicit[k] = true;
+    else
+      p.steps = std::min(p.steps, allowed);
+  }
+  const double pieces = std::ceil(remaining / p.steps * (1.0 - 1e-12));
+  if (!(pieces < 1e4))
+    throw std::runtime_error("scalars: the air's mass fluxes would empty a cell; is the flow still sound?");
+  p.steps = remaining / std::max(pieces, 1.0);
+  return p;
+}
+
+}  // namespace
+
+void advance_scalars(const Rows& rows, const FaceFluxes& fluxes, double steps, const ScalarOptions& options,
+                     ScalarFields& fields, ScalarBudget& budget) {
+  const Update u{rows, fluxes, options, fields, budget};
+  check(u, steps);
+  static const SweepKernel kernel = select_sweep();
+  bool all = !options.skip_empty;
+  for (const ScalarLaw& law : options.scalar)
+    for (const auto& value : law.fixed) all = all || (value && *value > 0.0);
+
+  budget.air_mismatch = std::max(budget.air_mismatch, air_mismatch(u));
+  for (double elapsed = 0.0; elapsed < steps;) {
+    if (!mark_busy_runs(rows, all, fields)) return;
+    prepare(u, elapsed);
+    const auto limit = [&] { return step_limit(rows, fluxes, fields.air, options.cfl, fields.work.computed); };
+    Plan p = plan(u, limit(), steps - elapsed);
+    if (p.any_implicit && !all) {  // lines carry it everywhere at once
+      all = true;
+      continue;
+    }
+    std::vector<double> exchange(fields.scalars());
+    for (int k = 0; k < fields.scalars(); ++k)
+      exchange[k] = p.implicit[k] ? 0.0 : p.steps * options.scalar[k].diffusivity;
+    for (int n = 0; n < 3; ++n) sweep(u, kernel, fields.reversed ? 2 - n : n, p.steps, exchange);
+    for (int n = 0; n < 3; ++n)
+      for (int k = 0; k < fields.scalars(); ++k)
+        if (p.implicit[k])
+          diffuse_lines(rows, fluxes, fields.reversed ? 2 - n : n, k, options.scalar[k],
+                        p.steps * options.scalar[k].diffusivity, fields, budget);
+    fields.reversed = !fields.reversed;
+    ++budget.sub_steps;
+    for (std::size_t r = 0; r < rows.runs().size(); ++r)
+      (fields.work.computed[r] ? budget.cells_computed : budget.cells_skipped) += rows.runs()[r].count;
+    elapsed = p.steps < steps - elapsed ? elapsed + p.steps : steps;
+  }
+}
+
+}  // namespace puffin::lbm

@@ -1,0 +1,24 @@
+#pragma once
+// How many air steps one sub-step may cover.
+
+#include <cstdint>
+#include <vector>
+
+#include "lbm/rows.hpp"
+#include "lbm/scalars/face_fluxes.hpp"
+
+namespace puffin::lbm {
+
+struct StepLimit {
+  double steps = 0.0;      // by the outflow and by the air left between the sweeps; infinite where nothing flows
+  double least_air = 0.0;  // smallest air mass of a cell at the start
+};
+
+/// As max_steps of advance_scalars.hpp, over the runs marked in `computed` (empty: all), with the air mass `air` of
+/// each slot. Conditions for n steps, order x y z, net outflows N, outflows A: n A_x <= cfl theta, n A_y <= cfl (theta
+/// - n N_x), n A_z <= cfl (theta - n N_x - n N_y), n N_x <= theta/2, n (N_x + N_y) <= theta/2; and the same for z y x.
+/// All linear in n.
+StepLimit step_limit(const Rows& rows, const FaceFluxes& fluxes, const std::vector<double>& air, double cfl,
+                     const std::vector<std::uint8_t>& computed);
+
+}  // namespace puffin::lbm

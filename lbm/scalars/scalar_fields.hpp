@@ -1,0 +1,95 @@
+#pragma once
+// Scalars carried by the air: what is stored, what can be chosen, what has left.
+//
+// A scalar is kept as the AMOUNT in each cell (a number of fines, say), so that sums over cells are the ledger. What
+// the air carries is the concentration Y = amount / air mass of the cell. Equation (thesis 2.12 with alpha = 1):
+//   d(rho Y)/dt + div(rho u Y - Gamma grad Y) = source.
+// Any number of scalars share one flow. Ghost and padding slots always hold zero.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "lbm/rows.hpp"
+#include "lbm/scalars/compensated_sum.hpp"
+#include "lbm/scalars/limiters.hpp"
+
+namespace puffin::lbm {
+
+enum class WallRule {
+  reflect,  // nothing passes a closed face
+  absorb    // Y = 0 on every closed face, half a cell away: what diffuses there is taken out and booked
+};
+
+/// How one scalar is carried.
+struct ScalarLaw {
+  Scheme scheme = Scheme::mc;
+  double diffusivity = 0.0;  // Gamma / reference density, lattice units: dx^2 per air step; >= 0
+  WallRule wall = WallRule::reflect;
+  /// [patch] the concentration held on an opening: inflow brings it, and the scalar diffuses to and from the face, half
+  /// a cell away. No value (or a shorter list): inflow brings none, and nothing diffuses through.
+  std::vector<std::optional<double>> fixed;
+};
+
+struct ScalarOptions {
+  std::vector<ScalarLaw> scalar;
+  double cfl = 0.8;        // largest part of a cell's air that leaves it in one sweep, in (0, 1)
+  bool skip_empty = true;  // leave out runs that hold nothing and have no neighbour that does (changes no result)
+};
+
+/// What passed the boundaries since the start, in amounts.
+struct ScalarBudget {
+  ScalarBudget() = default;
+  ScalarBudget(const Rows& rows, int scalars, int patches);
+
+  std::vector<std::vector<CompensatedSum>> left, entered;  // [scalar][patch], both >= 0
+  std::vector<std::vector<double>> absorbed_at;            // [scalar][slot] taken by the closed faces of a cell
+  double air_mismatch = 0.0;   // largest |carried air - the lattice's density| / density seen at the start of an update
+  std::int64_t sub_steps = 0;  // sub-steps done
+  std::int64_t cells_computed = 0, cells_skipped = 0;  // cells x sub-steps
+};
+double absorbed(const ScalarBudget& budget, int scalar);
+/// left - entered over all patches, plus absorbed.
+double gone(const ScalarBudget& budget, int scalar);
+
+/// Scratch of advance_scalars and what it derives once from the rows. No state: a checkpoint leaves it out.
+struct ScalarWork {
+  struct OpeningFace {
+    std::ptrdiff_t cell, ghost;
+    int patch;
+    bool ghost_is_high;  // the ghost lies in + direction of the cell
+  };
+  std::array<std::vector<OpeningFace>, 3> openings;  // [d]
+  std::array<std::vector<std::array<std::ptrdiff_t, 2>>, 3>
+      periodic;                      // [d] (ghost beside a cell in d, cell it mirrors)
+  std::vector<std::int32_t> run_of;  // [slot] -1: no active cell
+  std::vector<int> opening_patch;    // [slot] -1: not in an opening
+  std::array<std::vector<std::int32_t>, 3> neighbour_begin, neighbour_runs;  // [d] runs that share a face in d, by run
+  std::vector<double> concentration;                                         // [scalar * slots + slot]
+  std::vector<double> out_high, out_low;                            // [scalar * slots + slot] leaves through a face
+  std::vector<std::uint8_t> computed;                               // [run] taking part in this update
+  std::array<std::vector<std::int32_t>, 3> line_slots, line_begin;  // [d] lines of cells for implicit diffusion
+  std::array<std::vector<std::uint8_t>, 3> line_closes;             // [d][line] its ends are periodic neighbours
+  bool checked = false;                                             // the fluxes have been checked
+};
+
+struct ScalarFields {
+  ScalarFields() = default;
+  /// opening_patch[slot]: patch index of the ghosts that lie in an opening of the domain, -1 elsewhere (size
+  /// rows.slots(); may be empty if there are no openings). Throws std::invalid_argument if the sizes disagree.
+  ScalarFields(const Rows& rows, int scalars, const std::vector<int>& opening_patch = {});
+
+  int scalars() const { return static_cast<int>(amount.size()); }
+
+  std::vector<std::vector<double>> amount;  // [scalar][slot] >= 0; add sources here, at active cells
+  bool reversed = false;                    // the next update sweeps z, y, x (state: belongs in a checkpoint)
+  std::vector<double> air;                  // [slot] carried air mass of the cells last computed, lattice units
+  ScalarWork work;
+};
+
+/// Everything of one scalar that is in the domain; compensated, in the order of the slots.
+double total(const ScalarFields& fields, int scalar);
+
+}  // namespace puffin::lbm

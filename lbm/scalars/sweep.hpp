@@ -1,0 +1,62 @@
+#pragma once
+// One sweep of the scalar transport along one direction, for one run of cells.
+//
+// A cell with air mass theta and concentration Y loses through its high face, if the air flows out there by the mass a
+// > 0,
+//   a (Y + (1 - a/theta)/2 slope),   slope: limited rise of Y across the cell (limiters.hpp),
+// and through its low face the mirror image; with diffusion, gamma Y more through each face that is open to a
+// neighbour, which does the same in return. `outgoing` computes what each cell loses, `update` takes it from there and
+// gives it to the neighbour, and carries the air: theta <- theta - (net outflow). Both sides use the same number:
+// conservative to rounding.
+//
+// No new extremum: the values at the faces lie between the cell and its neighbour, for the slope is at most twice the
+// smaller difference. What stays behind, per air staying behind, is Y + b slope with |b| <= 1/2 max(a)/theta: again
+// between the cell and its neighbours while the outflow through both faces is at most theta. The new Y is the
+// air-weighted mean of what stayed and what came. With diffusion the weight of Y itself is at least theta (1 - nu)^2,
+// nu = outflow / theta, so that the sum stays a mean as long as gamma times the number of exchanging faces is below
+// that. Source of the scheme: B. van Leer, J. Comput. Phys. 23, 276 (1977); of the carried air: Easter, Mon. Weather
+// Rev. 121, 297 (1993).
+
+#include <cstddef>
+#include <cstdint>
+
+#include "lbm/scalars/limiters.hpp"
+
+namespace puffin::lbm {
+
+/// Amounts below this are left where they are: their products would be denormal numbers, which some processors do
+/// slowly.
+inline constexpr double dust = 1e-200;
+
+/// A run of cells and its faces in the direction of the sweep; pointers are to the first cell.
+struct SweepRun {
+  int count = 0;
+  std::ptrdiff_t low = 0, high = 0;    // slot offsets to the neighbours
+  const double* mass = nullptr;        // [cell] flux through the high face, lattice units per air step
+  const std::uint8_t* open = nullptr;  // [cell] the high face: 0 closed, 1 open, 2 opening of the domain
+  double steps = 0.0;                  // air steps
+  double* air = nullptr;               // [cell] theta
+};
+
+/// One scalar along the run.
+struct SweepScalar {
+  Scheme scheme = Scheme::mc;
+  double exchange = 0.0;  // gamma = steps * Gamma [lattice mass]
+  double* amount = nullptr;
+  double* concentration = nullptr;
+  double* out_high = nullptr;  // what leaves through the high and the low face
+  double* out_low = nullptr;
+};
+
+struct SweepKernel {
+  void (*outgoing)(const SweepRun&, const SweepScalar*, int scalars) = nullptr;
+  void (*update)(const SweepRun&, const SweepScalar*, int scalars) = nullptr;
+};
+
+/// The same arithmetic, compiled for several processors: equal bits.
+SweepKernel baseline_sweep();
+SweepKernel avx2_sweep();  // null functions where the build does not contain it
+/// The best that this processor offers.
+SweepKernel select_sweep();
+
+}  // namespace puffin::lbm

@@ -1,0 +1,14 @@
+#include "lbm/scalars/sweep_isa.inc.hpp"
+
+namespace puffin::lbm {
+
+SweepKernel baseline_sweep() { return {outgoing, update}; }
+
+SweepKernel select_sweep() {
+#if defined(__x86_64__)
+  if (__builtin_cpu_supports("avx2") && avx2_sweep().outgoing) return avx2_sweep();
+#endif
+  return baseline_sweep();
+}
+
+}  // namespace puffin::lbm
