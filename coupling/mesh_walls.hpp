@@ -1,6 +1,7 @@
 #pragma once
 // The walls that carriers meet: the triangles of the device, less its openings.
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -29,9 +30,8 @@ class MeshWalls : public dem::Walls {
   std::optional<int> beyond_opening(const Eigen::Vector3d& point) const;
 
  private:
-  std::shared_ptr<const lbm::geometry::TriangleTree> tree_;   // every triangle
-  std::shared_ptr<const lbm::geometry::TriangleTree> walls_;  // without the openings; null if nothing is left
-  std::vector<char> opening_;                                 // per triangle of tree_
+  std::shared_ptr<const lbm::geometry::TriangleTree> tree_;
+  std::vector<char> opening_;  // per triangle of tree_
   double cos_smooth_ = 1.0;
 
   // Distances to the walls and to any surface, on nodes of a coarse grid around the mesh.
@@ -41,7 +41,14 @@ class MeshWalls : public dem::Walls {
   std::vector<float> wall_distance_;     // [m] a lower bound
   std::vector<float> signed_clearance_;  // [m] > 0 inside, < 0 outside; magnitude: a lower bound of the distance to any
                                          // triangle
-  std::optional<std::size_t> nearest_node(const Eigen::Vector3d& p, Eigen::Vector3d& node) const;
+  struct Node {
+    std::size_t index = 0;
+    double away = 0.0;  // [m] from the point asked for
+  };
+  Node nearest_node(const Eigen::Vector3d& p) const;
+  Eigen::Vector3d node_at(int i, int j, int k) const;
+  bool enclosed(const Eigen::Vector3d& point) const;
+  void measure_distances();
 };
 
 }  // namespace puffin::coupling

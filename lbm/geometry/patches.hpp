@@ -27,7 +27,8 @@ struct Patches {
 /// Untagged triangles keep the name of their solid if the file has several, else they are "wall". Selections come first
 /// in `names`, in order.
 /// Throws GeometryError listing every bad selection: unknown solid (with the known ones and the likeliest), bad syntax,
-/// nothing selected, two selections that overlap, a name used twice.
+/// nothing selected, two selections that overlap, a name used twice, a solid that bears a selection's name but is not
+/// wholly selected.
 Patches assign_patches(const TriangleMesh& mesh, const std::vector<PatchSelection>& selections);
 
 }  // namespace puffin::lbm::geometry

@@ -16,11 +16,11 @@ struct RepairOptions {
 
 /// One thing that was done.
 struct Repair {
-  std::string what;  // "welded vertices", "removed degenerate facets", "removed duplicate facets",
-                     // "turned facets", "filled holes"
+  std::string what{};  // "welded vertices", "removed degenerate facets", "removed duplicate facets",
+                       // "turned facets", "filled holes"
   std::size_t count = 0;
-  std::vector<Vec3> where;  // [m] one place each, at most Defect::places
-  std::string message;
+  std::vector<Vec3> where{};  // [m] one place each, at most Defect::places
+  std::string message{};
 };
 
 /// Welds, removes degenerate and duplicate facets, turns facets until neighbours agree and the volume of each part that

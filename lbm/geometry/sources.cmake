@@ -1,1 +1,17 @@
-set(PUFFIN_GEOMETRY_SOURCES)
+set(PUFFIN_GEOMETRY_SOURCES
+  geometry/adjacency.cpp
+  geometry/patches.cpp
+  geometry/row_crossings.cpp
+  geometry/self_intersection.cpp
+  geometry/shells.cpp
+  geometry/stl.cpp
+  geometry/stl_text.cpp
+  geometry/surface_check.cpp
+  geometry/tree_build.cpp
+  geometry/tree_features.cpp
+  geometry/tree_rays.cpp
+  geometry/tree_winding.cpp
+  geometry/triangle_tree.cpp
+  geometry/voxel_report.cpp
+  geometry/voxelize.cpp
+  geometry/weld.cpp)

@@ -21,11 +21,11 @@ class GeometryError : public std::runtime_error {
 /// direction), "inside out" (negative volume), "self-intersection", "disconnected part", "nested shell",
 /// "suspicious size".
 struct Defect {
-  std::string kind;
+  std::string kind{};
   std::size_t count = 0;
-  std::vector<Vec3> where;  // [m] one place each, at most Defect::places
-  std::string message;      // one sentence: the first place, and what to do
-  bool fatal = false;       // the surface does not bound a volume as it is; the other kinds are worth a look
+  std::vector<Vec3> where{};  // [m] one place each, at most Defect::places
+  std::string message{};      // one sentence: the first place, and what to do
+  bool fatal = false;         // the surface does not bound a volume as it is; the other kinds are worth a look
 
   static constexpr std::size_t places = 1000;
 };
@@ -37,6 +37,9 @@ std::vector<Defect> check_surface(const TriangleMesh& mesh, bool self_intersecti
 /// Throws GeometryError naming the first bad edge with its two ends [m] and a remedy, unless every edge has triangles
 /// running through it equally often in both directions and the enclosed volume is positive.
 void require_closed(const TriangleMesh& mesh);
+
+/// "(x, y, z) m" with nine digits, for messages.
+std::string place_text(const Vec3& p);
 
 /// Enclosed volume [m^3], positive if the triangles point out of it: V = 1/6 sum a . (b x c). Meaningful if closed.
 double enclosed_volume(const TriangleMesh& mesh);

@@ -2,7 +2,7 @@
 // A triangle surface: shared vertices, triangles that index them, and the named solid each triangle came from.
 // Lengths carry no unit here: they are whatever the caller uses (Puffin uses metres).
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <array>
 #include <string>
 #include <vector>

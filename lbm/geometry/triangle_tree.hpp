@@ -90,12 +90,13 @@ class TriangleTree {
   // Far field of one child: sum of area vectors, their area-weighted centre, radius of the corners around it.
   struct Dipole {
     Vec3 centre = Vec3::Zero(), area = Vec3::Zero();
-    double radius = 0.0;
+    double radius = 0.0, weight = 0.0;  // weight: sum of the areas
   };
   struct Corners {
     Vec3 a, b, c;
   };
   class Builder;
+  void set_dipoles();
 
   std::shared_ptr<const TriangleMesh> mesh_;
   Adjacency adjacency_;

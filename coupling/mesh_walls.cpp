@@ -1,0 +1,128 @@
+#include "coupling/mesh_walls.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace puffin::coupling {
+
+namespace {
+
+using Eigen::Vector3d;
+using lbm::geometry::Feature;
+using lbm::geometry::TriangleMesh;
+using lbm::geometry::TriangleTree;
+
+// Nodes of the distance grid: at 8 bytes each it stays in a second-level cache's reach and is built in under a second.
+constexpr double grid_nodes = 5e5;
+
+float lower_bound(double distance) { return static_cast<float>(distance * (1.0 - 1e-6)); }
+
+}  // namespace
+
+MeshWalls::MeshWalls(std::shared_ptr<const TriangleTree> tree, const std::vector<int>& openings, double smooth_angle)
+    : tree_(std::move(tree)), cos_smooth_(std::cos(smooth_angle)) {
+  if (!tree_) throw std::invalid_argument("MeshWalls: no tree");
+  opening_.assign(tree_->mesh().triangles.size(), 0);
+  for (const int t : openings) {
+    if (t < 0 || t >= static_cast<int>(opening_.size())) {
+      throw std::invalid_argument("MeshWalls: opening triangle " + std::to_string(t) + " does not exist");
+    }
+    opening_[t] = 1;
+  }
+  measure_distances();
+}
+
+Vector3d MeshWalls::node_at(int i, int j, int k) const { return first_node_ + spacing_ * Vector3d(i, j, k); }
+
+void MeshWalls::measure_distances() {
+  const Vector3d extent = tree_->max() - tree_->min();
+  // A flat box still gets a few nodes across.
+  const Vector3d sides = extent.cwiseMax(1e-3 * extent.maxCoeff());
+  spacing_ = std::max(std::cbrt(sides.prod() / grid_nodes), extent.maxCoeff() / 4000.0);
+  for (int d = 0; d < 3; ++d) nodes_[d] = static_cast<int>(std::ceil(extent[d] / spacing_)) + 2;
+  first_node_ = tree_->min() - 0.5 * Vector3d::Constant(spacing_);
+
+  TriangleMesh wall_mesh;
+  wall_mesh.vertices = tree_->mesh().vertices;
+  for (std::size_t t = 0; t < opening_.size(); ++t) {
+    if (!opening_[t]) wall_mesh.triangles.push_back(tree_->mesh().triangles[t]);
+  }
+  std::unique_ptr<TriangleTree> walls;
+  const bool all_walls = wall_mesh.triangles.size() == opening_.size();
+  if (!all_walls && !wall_mesh.triangles.empty()) walls = std::make_unique<TriangleTree>(std::move(wall_mesh));
+
+  const std::size_t n = static_cast<std::size_t>(nodes_[0]) * nodes_[1] * nodes_[2];
+  wall_distance_.assign(n, std::numeric_limits<float>::max());
+  signed_clearance_.assign(n, 0.0f);
+  tbb::parallel_for(0, nodes_[1] * nodes_[2], [&](int row) {
+    const int j = row % nodes_[1], k = row / nodes_[1];
+    double any = std::numeric_limits<double>::infinity(), wall = any;
+    bool in = false, known = false;
+    for (int i = 0; i < nodes_[0]; ++i) {
+      const Vector3d p = node_at(i, j, k);
+      const std::size_t at = i + static_cast<std::size_t>(nodes_[0]) * row;
+      // The distance changes by at most the way between the nodes: a limit that makes the search short.
+      known = known && any > spacing_;
+      any = tree_->closest(p, any + 1.001 * spacing_).distance;
+      if (!known) in = tree_->inside(p);
+      known = true;
+      signed_clearance_[at] = in ? lower_bound(any) : -lower_bound(any);
+      if (walls) wall = walls->closest(p, wall + 1.001 * spacing_).distance;
+      if (all_walls) wall = any;
+      if (std::isfinite(wall)) wall_distance_[at] = lower_bound(wall);
+    }
+  });
+}
+
+MeshWalls::Node MeshWalls::nearest_node(const Vector3d& p) const {
+  std::array<int, 3> n;
+  for (int d = 0; d < 3; ++d) {
+    const double x = std::clamp((p[d] - first_node_[d]) / spacing_ + 0.5, 0.0, nodes_[d] - 0.5);
+    n[d] = static_cast<int>(x);
+  }
+  return {n[0] + static_cast<std::size_t>(nodes_[0]) * (n[1] + static_cast<std::size_t>(nodes_[1]) * n[2]),
+          (p - node_at(n[0], n[1], n[2])).norm()};
+}
+
+void MeshWalls::near(const Vector3d& centre, double reach, std::vector<dem::WallTouch>& touches) const {
+  touches.clear();
+  static thread_local std::vector<Feature> features;
+  features.clear();
+  tree_->near_features(centre, reach, &opening_, features, lbm::geometry::Side::inner);
+  std::sort(features.begin(), features.end(), [](const Feature& a, const Feature& b) {
+    return a.distance != b.distance ? a.distance < b.distance : a.triangle < b.triangle;
+  });
+  for (const Feature& f : features) {
+    const Vector3d away = centre - f.point;
+    const bool same = std::any_of(touches.begin(), touches.end(), [&](const dem::WallTouch& t) {
+      return away.dot(centre - t.point) >= cos_smooth_ * f.distance * t.distance;
+    });
+    if (!same) touches.push_back({f.point, f.distance, f.triangle});
+  }
+}
+
+double MeshWalls::clearance(const Vector3d& centre, double limit) const {
+  const Node node = nearest_node(centre);
+  return std::clamp(wall_distance_[node.index] - node.away, 0.0, std::max(limit, 0.0));
+}
+
+bool MeshWalls::enclosed(const Vector3d& point) const {
+  const Node node = nearest_node(point);
+  const float s = signed_clearance_[node.index];
+  return std::abs(s) > node.away ? s > 0.0f : tree_->inside(point);
+}
+
+std::optional<int> MeshWalls::beyond_opening(const Vector3d& point) const {
+  if (enclosed(point)) return std::nullopt;
+  const int nearest = tree_->closest(point).triangle;
+  if (nearest < 0 || !opening_[nearest]) return std::nullopt;
+  return nearest;
+}
+
+bool MeshWalls::inside(const Vector3d& point) const { return enclosed(point) || beyond_opening(point).has_value(); }
+
+}  // namespace puffin::coupling

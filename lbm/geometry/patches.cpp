@@ -1,0 +1,232 @@
+#include "lbm/geometry/patches.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <optional>
+
+#include "lbm/geometry/adjacency.hpp"
+#include "lbm/geometry/surface_check.hpp"
+#include "lbm/geometry/triangle_distance.hpp"
+
+namespace puffin::lbm::geometry {
+
+namespace {
+
+constexpr double plane_fraction = 1e-5;         // of the bounding box diagonal
+constexpr double flat_cosine = 1.0 - 3.807e-5;  // half a degree
+
+// Number of single letters to insert, delete or replace to turn a into b (Levenshtein).
+std::size_t letters_apart(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t replaced = diagonal + (std::tolower(a[i - 1]) == std::tolower(b[j - 1]) ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
+    }
+  }
+  return row.back();
+}
+
+std::string unknown_solid(const std::string& name, const std::vector<std::string>& known) {
+  std::string message = "there is no solid '" + name + "'";
+  const auto best = std::min_element(known.begin(), known.end(), [&](const std::string& a, const std::string& b) {
+    return letters_apart(name, a) < letters_apart(name, b);
+  });
+  if (best != known.end() && letters_apart(name, *best) <= std::max<std::size_t>(1, name.size() / 3)) {
+    message += "; did you mean '" + *best + "'?";
+  }
+  message += " The solids of the file:";
+  for (const auto& k : known) message += " '" + k + "'";
+  return message;
+}
+
+struct Outcome {
+  std::vector<int> triangles;
+  std::string error;  // empty if all is well
+};
+
+Outcome select_solid(const TriangleMesh& mesh, const std::string& name) {
+  const auto found = std::find(mesh.solids.begin(), mesh.solids.end(), name);
+  if (found == mesh.solids.end()) return {{}, unknown_solid(name, mesh.solids)};
+  Outcome result;
+  const int wanted = static_cast<int>(found - mesh.solids.begin());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (mesh.solid[t] == wanted) result.triangles.push_back(static_cast<int>(t));
+  }
+  if (result.triangles.empty()) result.error = "the solid '" + name + "' has no triangles";
+  return result;
+}
+
+Outcome select_plane(const TriangleMesh& mesh, const std::string& plane) {
+  static const std::array<std::string, 6> names{"x-min", "x-max", "y-min", "y-max", "z-min", "z-max"};
+  const auto found = std::find(names.begin(), names.end(), plane);
+  if (found == names.end()) {
+    return {{}, "'plane:" + plane + "' is no plane; write plane:x-min, x-max, y-min, y-max, z-min or z-max"};
+  }
+  const int side = static_cast<int>(found - names.begin()), axis = side / 2;
+  const bool at_max = side % 2 == 1;
+  Vec3 low = mesh.vertices[0], high = low;
+  for (const auto& v : mesh.vertices) {
+    low = low.cwiseMin(v);
+    high = high.cwiseMax(v);
+  }
+  const double tolerance = plane_fraction * (high - low).norm();
+  const double level = at_max ? high[axis] : low[axis];
+  Outcome result;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const int t = static_cast<int>(i);
+    bool all = true;
+    for (int k = 0; k < 3; ++k) all = all && std::abs(mesh.corner(t, k)[axis] - level) <= tolerance;
+    if (all) result.triangles.push_back(t);
+  }
+  if (result.triangles.empty()) {
+    result.error = "no triangle lies flat in the plane " + plane + " of the bounding box (" + "xyz"[axis] + " = " +
+                   std::to_string(level * 1e3) + " mm)";
+  }
+  return result;
+}
+
+std::optional<Vec3> parse_point(const std::string& text) {
+  Vec3 p;
+  const char *at = text.data(), *end = text.data() + text.size();
+  auto take = [&](char c) {
+    while (at != end && *at == ' ') ++at;
+    if (at == end || *at != c) return false;
+    ++at;
+    while (at != end && *at == ' ') ++at;
+    return true;
+  };
+  if (!take('[')) return std::nullopt;
+  for (int d = 0; d < 3; ++d) {
+    if (d > 0 && !take(',')) return std::nullopt;
+    if (at != end && *at == '+') ++at;
+    const auto [next, error] = std::from_chars(at, end, p[d]);
+    if (error != std::errc() || !std::isfinite(p[d])) return std::nullopt;
+    at = next;
+  }
+  if (!take(']') || at != end) return std::nullopt;
+  return p;
+}
+
+Outcome select_near(const TriangleMesh& mesh, const Adjacency& adjacency, const std::string& text) {
+  const auto point = parse_point(text);
+  if (!point) return {{}, "'near:" + text + "' is no point; write near:[x, y, z] with numbers in metres"};
+  int nearest = -1;
+  double best = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const int t = static_cast<int>(i);
+    if (!(mesh.area(t) > 0.0) || adjacency.edge(t, 0) < 0) continue;
+    const auto on = nearest_on_triangle(*point, mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2));
+    const double d2 = (on.point - *point).squaredNorm();
+    if (d2 < best) {
+      best = d2;
+      nearest = t;
+    }
+  }
+  if (nearest < 0) return {{}, "every triangle is degenerate"};
+  const Vec3 normal = mesh.area_vector(nearest).normalized();
+  Outcome result;
+  std::vector<char> taken(mesh.triangles.size(), 0);
+  taken[nearest] = 1;
+  result.triangles.push_back(nearest);
+  for (std::size_t i = 0; i < result.triangles.size(); ++i) {
+    for (int k = 0; k < 3; ++k) {
+      for (const auto& use : adjacency.uses(adjacency.edge(result.triangles[i], k))) {
+        if (taken[use.triangle]) continue;
+        const Vec3 n = mesh.area_vector(use.triangle);
+        if (n.dot(normal) < flat_cosine * n.norm()) continue;
+        taken[use.triangle] = 1;
+        result.triangles.push_back(use.triangle);
+      }
+    }
+  }
+  return result;
+}
+
+Outcome select(const TriangleMesh& mesh, const Adjacency& adjacency, const std::string& how) {
+  auto starts = [&](const char* word) { return how.rfind(word, 0) == 0; };
+  if (starts("solid:")) return select_solid(mesh, how.substr(6));
+  if (starts("plane:")) return select_plane(mesh, how.substr(6));
+  if (starts("near:")) return select_near(mesh, adjacency, how.substr(5));
+  return {{}, "'" + how + "' selects nothing; write solid:NAME, plane:x-min (... z-max) or near:[x, y, z]"};
+}
+
+}  // namespace
+
+int Patches::find(const std::string& name) const {
+  const auto found = std::find(names.begin(), names.end(), name);
+  return found == names.end() ? -1 : static_cast<int>(found - names.begin());
+}
+
+Patches assign_patches(const TriangleMesh& mesh, const std::vector<PatchSelection>& selections) {
+  if (mesh.triangles.empty()) throw GeometryError("error: the surface has no triangles");
+  const Adjacency adjacency(mesh);
+  Patches patches;
+  patches.of_triangle.assign(mesh.triangles.size(), -1);
+  std::string errors;
+  auto complain = [&](const std::string& name, const std::string& what) {
+    errors += (errors.empty() ? "error: patch '" : "\nerror: patch '") + name + "': " + what;
+  };
+  for (const auto& selection : selections) {
+    if (patches.find(selection.name) >= 0) {
+      complain(selection.name, "this name is used twice");
+      continue;
+    }
+    const int patch = static_cast<int>(patches.names.size());
+    patches.names.push_back(selection.name);
+    const Outcome chosen = select(mesh, adjacency, selection.select);
+    if (!chosen.error.empty()) complain(selection.name, chosen.error);
+    std::size_t shared = 0;
+    int other = -1;
+    for (const int t : chosen.triangles) {
+      if (patches.of_triangle[t] >= 0) {
+        ++shared;
+        other = patches.of_triangle[t];
+      } else {
+        patches.of_triangle[t] = patch;
+      }
+    }
+    if (shared > 0) {
+      complain(selection.name, "'" + selection.select + "' overlaps patch '" + patches.names[other] + "' in " +
+                                   std::to_string(shared) + " triangles; a triangle belongs to one patch");
+    }
+  }
+  // A solid that bears the name of a selection must be inside it: otherwise its rest would silently join the patch.
+  const std::size_t selected = patches.names.size();
+  std::vector<std::size_t> left_over(selected, 0);
+  for (std::size_t t = 0; t < mesh.triangles.size() && mesh.solids.size() > 1; ++t) {
+    const int same_name = patches.of_triangle[t] < 0 ? patches.find(mesh.solids[mesh.solid[t]]) : -1;
+    if (same_name >= 0) ++left_over[same_name];
+  }
+  for (std::size_t p = 0; p < selected; ++p) {
+    if (left_over[p] > 0) {
+      complain(patches.names[p], "the file has a solid of this name with " + std::to_string(left_over[p]) +
+                                     " triangles outside the selection; select solid:" + patches.names[p] +
+                                     " or give the patch another name");
+    }
+  }
+  if (!errors.empty()) throw GeometryError(errors);
+
+  auto index_of = [&](const std::string& name) {
+    const int known = patches.find(name);
+    if (known >= 0) return known;
+    patches.names.push_back(name);
+    return static_cast<int>(patches.names.size()) - 1;
+  };
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (patches.of_triangle[t] < 0) {
+      patches.of_triangle[t] = index_of(mesh.solids.size() > 1 ? mesh.solids[mesh.solid[t]] : "wall");
+    }
+  }
+  return patches;
+}
+
+}  // namespace puffin::lbm::geometry

@@ -1,0 +1,82 @@
+#include "lbm/geometry/self_intersection.hpp"
+
+#include <tbb/blocked_range.h>
+#include <tbb/combinable.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "lbm/geometry/triangle_tree.hpp"
+
+namespace puffin::lbm::geometry {
+
+namespace {
+
+// Six times the volume of the tetrahedron (a, b, c, d), or 0 if it is within rounding of that.
+double volume6(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  const Vec3 u = b - a, v = c - a, w = d - a;
+  const double volume = w.dot(u.cross(v));
+  // Corners of STL files carry single precision: anything flatter than that is touching, not crossing.
+  const double rounding = 4e-7 * std::max({u.norm(), v.norm(), w.norm()}) * u.cross(v).norm();
+  return std::abs(volume) <= rounding ? 0.0 : volume;
+}
+
+// Where the segment (p, q) passes through the interior of triangle t.
+std::optional<Vec3> pierce(const TriangleMesh& m, int t, const Vec3& p, const Vec3& q) {
+  const Vec3 &a = m.corner(t, 0), &b = m.corner(t, 1), &c = m.corner(t, 2);
+  const double sp = volume6(a, b, c, p), sq = volume6(a, b, c, q);
+  if (sp == 0.0 || sq == 0.0 || (sp > 0.0) == (sq > 0.0)) return std::nullopt;
+  const double u = volume6(p, q, a, b), v = volume6(p, q, b, c), w = volume6(p, q, c, a);
+  const bool all_positive = u > 0.0 && v > 0.0 && w > 0.0, all_negative = u < 0.0 && v < 0.0 && w < 0.0;
+  if (!all_positive && !all_negative) return std::nullopt;
+  return p + sp / (sp - sq) * (q - p);
+}
+
+std::optional<Vec3> cross(const TriangleMesh& m, int s, int t) {
+  for (const auto& [edges_of, through] : {std::pair(s, t), std::pair(t, s)}) {
+    const auto& corners = m.triangles[through];
+    for (int k = 0; k < 3; ++k) {
+      const int p = m.triangles[edges_of][k], q = m.triangles[edges_of][(k + 1) % 3];
+      if (std::find(corners.begin(), corners.end(), p) != corners.end()) continue;
+      if (std::find(corners.begin(), corners.end(), q) != corners.end()) continue;
+      if (const auto where = pierce(m, through, m.vertices[p], m.vertices[q])) return where;
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::vector<Intersection> find_self_intersections(const TriangleMesh& mesh) {
+  if (mesh.triangles.empty()) return {};
+  const TriangleTree tree(std::shared_ptr<const TriangleMesh>(std::shared_ptr<void>(), &mesh));
+  tbb::combinable<std::vector<Intersection>> found;
+  const int n = static_cast<int>(mesh.triangles.size());
+  tbb::parallel_for(tbb::blocked_range<int>(0, n, 1024), [&](const tbb::blocked_range<int>& r) {
+    auto& mine = found.local();
+    std::vector<int> candidates;
+    for (int s = r.begin(); s < r.end(); ++s) {
+      const Vec3 &a = mesh.corner(s, 0), &b = mesh.corner(s, 1), &c = mesh.corner(s, 2);
+      candidates.clear();
+      tree.overlapping(a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c), candidates);
+      for (const int t : candidates) {
+        if (t <= s) continue;
+        int shared = 0;
+        for (const int v : mesh.triangles[s]) {
+          shared += std::count(mesh.triangles[t].begin(), mesh.triangles[t].end(), v) > 0;
+        }
+        if (shared > 1) continue;
+        if (const auto where = cross(mesh, s, t)) mine.push_back({s, t, *where});
+      }
+    }
+  });
+  std::vector<Intersection> all;
+  found.combine_each([&](const std::vector<Intersection>& part) { all.insert(all.end(), part.begin(), part.end()); });
+  std::sort(all.begin(), all.end(),
+            [](const Intersection& x, const Intersection& y) { return x.a != y.a ? x.a < y.a : x.b < y.b; });
+  return all;
+}
+
+}  // namespace puffin::lbm::geometry

@@ -1,0 +1,93 @@
+// Winding numbers from a TriangleTree.
+
+#include <cmath>
+#include <numbers>
+
+#include "lbm/geometry/triangle_tree.hpp"
+
+namespace puffin::lbm::geometry {
+
+namespace {
+
+// A cluster of triangles seen from farther than this many of its radii is a dipole.
+constexpr double far_radii = 3.0;
+
+// Signed solid angle of a triangle seen from the origin, positive if its normal points away from the origin.
+// Source: van Oosterom & Strackee, IEEE Trans. Biomed. Eng. 30, 125 (1983).
+double solid_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const double la = a.norm(), lb = b.norm(), lc = c.norm();
+  const double numerator = a.dot(b.cross(c));
+  const double denominator = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
+  return 2.0 * std::atan2(numerator, denominator);
+}
+
+}  // namespace
+
+void TriangleTree::set_dipoles() {
+  dipoles_.resize(nodes_.size());
+  for (std::size_t n = nodes_.size(); n-- > 0;) {  // children come after their parent
+    const Node& node = nodes_[n];
+    for (int c = 0; c < 4; ++c) {
+      if (node.count[c] == 0) continue;
+      Dipole& dipole = dipoles_[n][c];
+      double weight = 0.0;
+      Vec3 weighted = Vec3::Zero();
+      auto add = [&](const Vec3& area, const Vec3& centre, double w) {
+        dipole.area += area;
+        weighted += w * centre;
+        weight += w;
+      };
+      if (node.child[c] < 0) {
+        for (int i = ~node.child[c]; i < ~node.child[c] + node.count[c]; ++i) {
+          const auto& [p, q, r] = corners_[i];
+          const Vec3 area = 0.5 * (q - p).cross(r - p);
+          add(area, (p + q + r) / 3.0, area.norm());
+        }
+      } else {
+        for (int k = 0; k < 4; ++k) {
+          const Dipole& part = dipoles_[node.child[c]][k];
+          if (nodes_[node.child[c]].count[k] > 0) add(part.area, part.centre, part.weight);
+        }
+      }
+      Vec3 low, high;
+      for (int d = 0; d < 3; ++d) {
+        low[d] = node.low[d][c] + centre_[d];
+        high[d] = node.high[d][c] + centre_[d];
+      }
+      dipole.weight = weight;
+      dipole.centre = weight > 0.0 ? Vec3(weighted / weight) : Vec3(0.5 * (low + high));
+      dipole.radius = (dipole.centre - low).cwiseMax(high - dipole.centre).norm();
+    }
+  }
+}
+
+double TriangleTree::winding_number(const Vec3& p) const {
+  double angle = 0.0;
+  std::array<std::int32_t, 256> stack;
+  int top = 0;
+  stack[top++] = 0;
+  while (top > 0) {
+    const std::int32_t n = stack[--top];
+    const Node& node = nodes_[n];
+    for (int c = 0; c < 4; ++c) {
+      if (node.count[c] == 0) continue;
+      const Dipole& dipole = dipoles_[n][c];
+      const Vec3 r = dipole.centre - p;
+      const double d2 = r.squaredNorm();
+      if (d2 > far_radii * far_radii * dipole.radius * dipole.radius) {
+        angle += dipole.area.dot(r) / (d2 * std::sqrt(d2));
+      } else if (node.child[c] >= 0) {
+        stack[top++] = node.child[c];
+      } else {
+        for (int i = ~node.child[c]; i < ~node.child[c] + node.count[c]; ++i) {
+          angle += solid_angle(corners_[i].a - p, corners_[i].b - p, corners_[i].c - p);
+        }
+      }
+    }
+  }
+  return angle / (4.0 * std::numbers::pi);
+}
+
+bool TriangleTree::inside(const Vec3& p) const { return std::abs(winding_number(p)) > 0.5; }
+
+}  // namespace puffin::lbm::geometry
