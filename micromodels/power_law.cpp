@@ -1,0 +1,22 @@
+#include "micromodels/power_law.hpp"
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace puffin::micromodels {
+
+PowerLaw::PowerLaw(const std::array<double, 5>& constants, Validity valid) : a_(constants), valid_(valid) {
+  for (std::size_t i = 0; i < a_.size(); ++i)
+    if (!std::isfinite(a_[i]) || a_[i] < 0.0)
+      throw std::invalid_argument("power law: A" + std::to_string(i) +
+                                  " must be a number >= 0, as more speed cannot take less");
+}
+
+double PowerLaw::value(double speed) const {
+  return speed < a_[2] ? a_[0] * std::pow(speed, a_[1]) : a_[3] * std::pow(speed, a_[4]);
+}
+
+double PowerLaw::jump() const { return a_[3] * std::pow(a_[2], a_[4]) - a_[0] * std::pow(a_[2], a_[1]); }
+
+}  // namespace puffin::micromodels
