@@ -1,8 +1,13 @@
 set(PUFFIN_COUPLING_SOURCES
   cell_index.cpp
+  collisions.cpp
   drag.cpp
   drag_limit.cpp
+  fines.cpp
+  first_motion.cpp
   kernel.cpp
+  release_fines.cpp
+  statistics.cpp
   stencils.cpp
   transfer.cpp
   volume_fraction.cpp)
