@@ -98,7 +98,7 @@ Stamp stamp_of(const std::string& text, const TextStyle& style) {
     if (mark + 1 >= text.size()) break;
     const bool braces = text[mark + 1] == '{';
     const std::size_t from = mark + (braces ? 2 : 1);
-    const std::size_t length = braces ? text.find('}', from) - from : 1;
+    const std::size_t length = braces ? std::min(text.find('}', from), text.size()) - from : 1;
     whole = joined(whole, stamp_of(text.substr(from, length), style.size * 2 / 3, style.bold), 0);
     begin = from + length + (braces ? 1 : 0);
   }

@@ -1,0 +1,365 @@
+// The report of one run, section by section. A section without data says why it is left out.
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include "tools/output/csv_file.hpp"
+#include "tools/output/output_error.hpp"
+#include "tools/output/picture/views.hpp"
+#include "tools/output/render.hpp"
+#include "tools/output/report.hpp"
+#include "tools/output/report/chart.hpp"
+#include "tools/output/report/html.hpp"
+#include "tools/output/summary.hpp"
+#include "tools/output/vtk_series.hpp"
+
+namespace puffin::output {
+namespace {
+
+namespace fs = std::filesystem;
+using Rows = std::vector<std::vector<std::string>>;
+
+struct Run {
+  fs::path folder;
+  Summary summary;
+  CsvTable history;
+
+  std::vector<double> column(const std::string& name, double factor = 1.0) const {
+    std::vector<double> values = history.numbers(name);
+    for (double& value : values) value *= factor;
+    return values;
+  }
+};
+
+std::string heading(const std::string& text) { return "<h2>" + escaped(text) + "</h2>\n"; }
+std::string left_out(const std::string& why) { return "<p class=soft>Left out: " + escaped(why) + "</p>\n"; }
+std::string paragraph(const std::string& text) { return "<p>" + escaped(text) + "</p>\n"; }
+
+std::string milliseconds(const std::optional<double>& time) {
+  return time ? significant(*time * 1e3, 4) + " ms" : "<span class=soft>none</span>";
+}
+
+std::string duration(double seconds) {
+  if (seconds < 120) return significant(seconds, 3) + " s";
+  if (seconds < 7200) return significant(seconds / 60, 3) + " min";
+  return significant(seconds / 3600, 3) + " h";
+}
+
+/// Paints a view into images/NAME.png and embeds it; says why if that fails.
+std::string picture(const Run& run, View view, std::optional<double> time, const std::string& name,
+                    const std::string& caption, const RenderOptions& options = {}) {
+  const fs::path file = run.folder / "images" / (name + ".png");
+  try {
+    std::error_code error;
+    fs::create_directories(file.parent_path(), error);
+    render(run.folder, view, time, file, options);
+  } catch (const OutputError& error) {
+    return left_out(error.what());
+  }
+  std::ifstream stream(file, std::ios::binary);
+  std::stringstream bytes;
+  bytes << stream.rdbuf();
+  return figure_png(bytes.str(), caption);
+}
+
+std::string tile(const std::string& value, const std::string& name) {
+  return "<div class=tile><b>" + value + "</b><span>" + name + "</span></div>\n";
+}
+
+std::string percent(double part) { return significant(100 * part, 3) + "&nbsp;%"; }
+
+std::string head(const Run& run) {
+  const Summary& s = run.summary;
+  const bool known = s.state == "finished" || s.state == "stopped" || s.state == "diverged";
+  std::string out = "<h1>" + escaped(s.name) + "<span class=\"state " + (known ? s.state : "stopped") + "\">" +
+                    escaped(s.state) + "</span></h1>\n<p class=soft>Puffin " + escaped(s.version) + ", " +
+                    std::to_string(s.threads) + " threads" + (s.host.empty() ? "" : ", " + escaped(s.host)) + "</p>\n";
+  if (s.state == "diverged") {
+    out += "<div class=alarm><b>This run diverged</b> after " + milliseconds(s.simulated_time) +
+           " of simulated time. " + escaped(s.message) +
+           "<br>What follows is what had been written until then and is no result.</div>\n";
+  } else if (!s.message.empty()) {
+    out += paragraph(s.message);
+  }
+  out += "<div class=tiles>\n" + tile(milliseconds(s.simulated_time), "simulated");
+  out += tile(duration(s.wall_clock), "wall-clock time");
+  if (s.carriers && s.carriers->count > 0) {
+    const auto count = static_cast<double>(s.carriers->count);
+    out += tile(percent(static_cast<double>(s.carriers->emitted) / count),
+                "of " + grouped(s.carriers->count) + " carriers emitted");
+  }
+  if (!s.fines.empty()) {
+    out += tile(percent(s.fines[0].FFE), "fines emitted free (FFE)");
+    out += tile(percent(s.fines[0].FFW), "fines on the walls (FFW)");
+    out += tile(significant(s.fines[0].ledger_error, 2), "error of the fines' ledger");
+  }
+  if (s.pressure && s.pressure->total_to_static_drop.mean) {
+    out += tile(significant(*s.pressure->total_to_static_drop.mean, 3) + " Pa", "total-to-static pressure drop");
+  }
+  out += tile(significant(s.mlups, 3), "million cell updates a second");
+  return out + "</div>\n";
+}
+
+std::string geometry(const Run& run) {
+  std::string out = heading("The device");
+  if (!can_render(run.folder, View::geometry)) return out + left_out("this run has written no walls (vtk/walls.pvd).");
+  return out + picture(run, View::geometry, {}, "geometry",
+                       "The device with its patches. Parallel projection: the scale bar holds everywhere.");
+}
+
+/// Up to four stored moments between the first motion and the last emission.
+std::vector<double> flight_times(const Run& run) {
+  const std::vector<SeriesEntry> entries = read_pvd(run.folder / "vtk/carriers.pvd");
+  const double begin =
+      run.summary.carriers ? run.summary.carriers->first_motion.value_or(entries.front().time) : entries.front().time;
+  const double end =
+      run.summary.carriers ? run.summary.carriers->last_emitted.value_or(entries.back().time) : entries.back().time;
+  std::vector<double> times;
+  for (const double part : {0.10, 0.35, 0.60, 0.85}) {
+    const double wanted = begin + part * (end - begin);
+    const auto nearer = [&](const SeriesEntry& a, const SeriesEntry& b) {
+      return std::abs(a.time - wanted) < std::abs(b.time - wanted);
+    };
+    const double time = std::min_element(entries.begin(), entries.end(), nearer)->time;
+    if (times.empty() || times.back() != time) times.push_back(time);
+  }
+  return times;
+}
+
+std::string carriers(const Run& run) {
+  std::string out = heading("Carriers in flight");
+  if (!run.summary.carriers) return out + left_out("this run has no carriers.");
+  if (!can_render(run.folder, View::carriers)) {
+    return out + left_out("no moments of the carriers are stored; set [output] carriers = \"1 ms\".");
+  }
+  const std::vector<double> times = flight_times(run);
+  RenderOptions options;
+  options.width = 1280, options.height = 800, options.value_max = 0.0;
+  for (const auto& entry : read_pvd(run.folder / "vtk/carriers.pvd")) {
+    if (std::find(times.begin(), times.end(), entry.time) == times.end()) continue;
+    options.value_max = std::max(*options.value_max, speed_scale(read_carrier_frame(run.folder / "vtk" / entry.file)));
+  }
+  out += "<div class=pair>\n";
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    out += picture(run, View::carriers, times[i], "carriers-" + std::to_string(i + 1),
+                   "t = " + shortest(std::round(times[i] * 1e4) / 10) + " ms", options);
+  }
+  const CarrierSummary& c = *run.summary.carriers;
+  out += "</div>\n" + table({"", ""}, {{"loaded", grouped(c.count)},
+                                       {"emitted", grouped(c.emitted)},
+                                       {"retained", grouped(c.retained) + " (" + percent(c.retained_fraction) + ")"},
+                                       {"first motion", milliseconds(c.first_motion)},
+                                       {"first emitted", milliseconds(c.first_emitted)},
+                                       {"last emitted", milliseconds(c.last_emitted)},
+                                       {"retained dose fraction (RDF)", significant(c.RDF, 3)}});
+  return out;
+}
+
+std::string emission(const Run& run) {
+  std::string out = heading("Emission over time");
+  if (!run.summary.carriers) return out + left_out("this run has no carriers.");
+  if (run.history.rows.empty()) return out + left_out("history.csv holds no rows.");
+  const std::vector<double> time = run.column("time", 1e3);
+  LineChart count{"time [ms]", "carriers", {}, {}, 0.0};
+  count.curves = {{"emitted", time, run.column("carriers_emitted")},
+                  {"in the device", time, run.column("carriers_in")}};
+  const CarrierSummary& c = *run.summary.carriers;
+  if (c.first_motion) count.markers.push_back({*c.first_motion * 1e3, "first motion"});
+  if (c.first_emitted) count.markers.push_back({*c.first_emitted * 1e3, "first emitted"});
+  out += figure_svg(line_chart(count), "Single carriers (history.csv).");
+  if (run.summary.fines.empty()) return out + left_out("the fines: this run has none.");
+  LineChart fines{"time [ms]", "fraction of the fines loaded", {}, {}, 1.0};
+  for (const char* name : {"FFE", "FFW", "FFCR", "FFCE", "in_air"}) {
+    fines.curves.push_back({name, time, run.column(name)});
+  }
+  out += figure_svg(line_chart(fines),
+                    "Where the fines are: FFE left the device free, FFW on the walls, FFCR on carriers in the device, "
+                    "FFCE on emitted carriers, in_air still airborne inside. They add up to 1.");
+  return out;
+}
+
+std::string flow(const Run& run) {
+  std::string out = heading("Flow and pressure");
+  if (run.history.rows.empty()) return out + left_out("history.csv holds no rows.");
+  const std::vector<double> time = run.column("time", 1e3);
+  out += "<div class=pair>\n";
+  LineChart rate{"time [ms]", "flow rate [L/min]", {{"flow rate", time, run.column("flow_rate", 6e4)}}, {}, 0.0};
+  out += figure_svg(line_chart(rate), "Flow rate through the device.");
+  LineChart drop{"time [ms]", "pressure drop [Pa]", {}, {}, 0.0};
+  drop.curves = {{"static", time, run.column("static_drop")},
+                 {"total to static", time, run.column("total_to_static_drop")}};
+  out += figure_svg(line_chart(drop), "Pressure drops from inlet to outlet.") + "</div>\n";
+  if (!run.summary.pressure) return out;
+  const PressureSummary& p = *run.summary.pressure;
+  Rows rows;
+  const auto add = [&](const char* name, const TimeMean& m) {
+    rows.push_back({name, significant(m.mean, 4),
+                    m.ci_low && m.ci_high ? significant(*m.ci_low, 4) + " to " + significant(*m.ci_high, 4) : "",
+                    std::to_string(m.batches)});
+  };
+  add("static drop [Pa]", p.static_drop);
+  add("total-to-static drop [Pa]", p.total_to_static_drop);
+  out += table({"mean from " + milliseconds(p.window_begin) + " to " + milliseconds(p.window_end), "mean",
+                "95 % interval of the mean", "batches"},
+               rows);
+  out += paragraph(
+      "The total-to-static drop is what a test rig measures against the room: the losses and the speed that leaves.");
+  return out;
+}
+
+/// "experiment.FFE" -> {"experiment", "FFE"}; names without such a word are plain references.
+std::pair<std::string, std::string> source_of(const std::string& name) {
+  for (const char* source : {"experiment", "thesis", "simulation"}) {
+    if (name.rfind(std::string(source) + ".", 0) == 0) return {source, name.substr(std::string(source).size() + 1)};
+  }
+  return {"reference", name};
+}
+
+std::string outcome(const Run& run) {
+  std::string out = heading("Where the fines ended");
+  if (run.summary.fines.empty()) return out + left_out("this run has no fines.");
+  const FinesSummary& f = run.summary.fines[0];
+  BarChart chart{"fraction of the fines loaded", {}, 3};
+  for (const auto& [name, value] : {std::pair<std::string, double>{"FFE", f.FFE},
+                                    {"FFW", f.FFW},
+                                    {"FFCR", f.FFCR},
+                                    {"FFCE", f.FFCE},
+                                    {"in_air", f.in_air}}) {
+    BarGroup group{name, {{"this run", value, {}, {}}}};
+    for (const auto& row : run.summary.reference) {
+      const auto [source, quantity] = source_of(row.name);
+      if (quantity == name) group.bars.push_back({source, row.given, row.low, row.high});
+    }
+    chart.groups.push_back(group);
+  }
+  out += figure_svg(bar_chart(chart),
+                    "FFE free and emitted, FFW on the walls, FFCR on retained carriers, FFCE on emitted carriers, "
+                    "in_air still airborne at the end. Whiskers: the spread of the given value.");
+  Rows rows;
+  for (const auto& one : run.summary.fines) {
+    rows.push_back({escaped(one.name), significant(one.FFE), significant(one.FFW), significant(one.FFCR),
+                    significant(one.FFCE), significant(one.in_air), percent(one.by_mechanism.wall),
+                    percent(one.by_mechanism.particle), percent(one.by_mechanism.drag),
+                    significant(one.ledger_error, 2)});
+  }
+  return out + table({"scalar", "FFE", "FFW", "FFCR", "FFCE", "in_air", "detached by walls", "by carriers", "by drag",
+                      "ledger error"},
+                     rows);
+}
+
+std::string reference(const Run& run) {
+  std::string out = heading("Beside the given values");
+  if (run.summary.reference.empty()) return out + left_out("the case has no [reference] table.");
+  Rows rows;
+  for (const auto& row : run.summary.reference) {
+    rows.push_back({"<code>" + escaped(row.name) + "</code>", significant(row.given, 4),
+                    row.low && row.high ? significant(*row.low, 3) + " to " + significant(*row.high, 3) : "",
+                    significant(row.ours, 4), significant(row.difference, 3),
+                    row.difference && row.given != 0 ? percent(*row.difference / std::abs(row.given)) : ""});
+  }
+  return out + table({"quantity", "given", "spread", "this run", "difference", "relative"}, rows) +
+         paragraph("Given values are printed for comparison; the solver never uses them. SI units.");
+}
+
+std::string collisions(const Run& run) {
+  std::string out = heading("Collisions");
+  if (!run.summary.collisions) return out + left_out("this run has no carriers.");
+  const CollisionSummary& c = *run.summary.collisions;
+  out += table({"", "walls", "carriers"},
+               {{"collisions", grouped(std::llround(c.wall)), grouped(std::llround(c.particle))},
+                {"mean energy [J]", significant(c.mean_wall_energy), significant(c.mean_particle_energy)}});
+  out +=
+      table({"median number of collisions", ""}, {{"of all carriers", significant(c.median_per_carrier)},
+                                                  {"of emitted carriers", significant(c.median_per_emitted_carrier)}});
+  return out +
+         paragraph("Counted per single carrier: a parcel of ten counts ten times, a contact once for each partner.");
+}
+
+std::string wall_map(const Run& run) {
+  std::string out = heading("What landed on the walls");
+  if (!run.summary.carriers) return out + left_out("this run has no carriers.");
+  if (!can_render(run.folder, View::wall_map)) return out + left_out("no wall map is stored.");
+  out += picture(run, View::wall_map, {}, "wall-map",
+                 "On the triangles of the device's own surface, seen from outside; logarithmic.");
+  RenderOptions hits;
+  hits.wall_quantity = "hits";
+  return out + picture(run, View::wall_map, {}, "wall-hits", "Impacts of carriers per area.", hits);
+}
+
+std::string slice(const Run& run) {
+  std::string out = heading("The air");
+  if (!can_render(run.folder, View::slice)) {
+    return out + left_out("no fields are stored; add an entry to [output] fields.");
+  }
+  return out + picture(run, View::slice, {}, "slice", "Speed on the middle plane at the last stored moment.");
+}
+
+std::string work(const Run& run) {
+  std::string out = heading("Where the time went");
+  if (run.summary.phases.empty()) return out + left_out("no times by phase are recorded.");
+  BarChart chart{"seconds of wall-clock time", {}, 3};
+  for (const auto& phase : run.summary.phases) {
+    chart.groups.push_back({phase.name, {{"time", phase.seconds, {}, {}}}});
+  }
+  out += figure_svg(bar_chart(chart), "Of " + shortest(std::round(run.summary.wall_clock * 10) / 10) + " s in all.");
+  if (run.summary.skipped.empty()) return out + paragraph("Nothing was skipped.");
+  Rows rows;
+  for (const auto& skip : run.summary.skipped) {
+    rows.push_back({escaped(skip.name), grouped(skip.times), duration(skip.seconds_saved)});
+  }
+  return out + "<h3>What was skipped because it could not change the result</h3>\n" +
+         table({"", "times", "saved, estimated"}, rows);
+}
+
+std::string numerics(const Run& run) {
+  const Summary& s = run.summary;
+  Rows rows{{"cell size dx", significant(s.dx * 1e3, 4) + " mm"},
+            {"fluid cells", grouped(s.cells_fluid)},
+            {"computed cells", grouped(s.cells_active)},
+            {"time steps", grouped(s.steps)},
+            {"time step dt", significant(s.dt_min * 1e6, 3) + " to " + significant(s.dt_max * 1e6, 3) + " &micro;s"},
+            {"smallest relaxation time tau", significant(s.tau_min, 6)},
+            {"largest lattice Mach number", significant(s.mach_max, 3)},
+            {"million fluid-cell updates a second", significant(s.mlups, 3)},
+            {"million computed-cell updates a second", significant(s.mlups_active, 3)},
+            {"peak memory", significant(s.memory_peak / 1048576, 3) + " MiB"}};
+  return heading("Numerics") + table({"", ""}, rows);
+}
+
+std::string assumptions(const Run& run) {
+  std::string out = heading("Assumptions");
+  if (run.summary.assumptions.empty()) return out + paragraph("The case marks none.");
+  out += "<ul>\n";
+  for (const auto& text : run.summary.assumptions) out += "<li>" + escaped(text) + "</li>\n";
+  return out + "</ul>\n";
+}
+
+std::string reproduce(const Run& run) {
+  return heading("To run this again") + "<p>With Puffin " + escaped(run.summary.version) +
+         " and the file <code>case.toml</code> of this run, which holds every value and where it came "
+         "from:</p>\n<pre>" +
+         "puffin run case.toml --threads " + std::to_string(run.summary.threads) + " --out again\n" +
+         "puffin compare again " + escaped(run.folder.filename().string()) + "</pre>\n" +
+         "<p class=soft>The numbers of this page are in summary.json and history.csv; the pictures are in "
+         "images/.</p>\n";
+}
+
+}  // namespace
+
+std::string make_report(const fs::path& folder) {
+  Run run;
+  run.folder = fs::absolute(folder).lexically_normal();
+  if (!run.folder.has_filename()) run.folder = run.folder.parent_path();
+  run.summary = read_summary(run.folder / "summary.json");
+  if (fs::exists(run.folder / "history.csv")) run.history = read_csv(run.folder / "history.csv");
+  std::string body = head(run);
+  for (const auto section : {geometry, carriers, emission, outcome, reference, flow, slice, collisions, wall_map, work,
+                             numerics, assumptions, reproduce}) {
+    body += section(run);
+  }
+  return page(run.summary.name, body);
+}
+
+}  // namespace puffin::output
