@@ -15,10 +15,11 @@ namespace puffin::dem {
 /// What a carrier remembers of its rest.
 struct RestMemory {
   int steps_at_rest = 0;
-  Eigen::Vector3d load = Eigen::Vector3d::Zero();           // force of air, field and gravity when it fell asleep [N]
-  Eigen::Vector3d contact_force = Eigen::Vector3d::Zero();  // sum of its contacts' forces then [N]
-  Eigen::Vector3d torque = Eigen::Vector3d::Zero();         // [N m]
-  double hold = 0.0;                                        // what holds it, the weakest contact [N]
+  Eigen::Vector3d load = Eigen::Vector3d::Zero();            // force of air, field and gravity when it fell asleep [N]
+  Eigen::Vector3d contact_force = Eigen::Vector3d::Zero();   // sum of its contacts' forces then [N]
+  Eigen::Vector3d contact_change = Eigen::Vector3d::Zero();  // how that sum has changed since [N]
+  Eigen::Vector3d torque = Eigen::Vector3d::Zero();          // of the load when it fell asleep [N m]
+  double hold = 0.0;                                         // what holds it, the weakest contact [N]
 };
 
 /// Counts since the start, for reports.

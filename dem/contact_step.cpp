@@ -1,0 +1,376 @@
+// The contact law as a small state machine, free of the softened stiffness where adhesion is concerned.
+//
+// Compression: linear spring k and dashpot eta (thesis eq. 2.3). k belongs to the contact: just stiff enough for its
+// own impact. What squeezes it further later meets a second spring beyond the allowed overlap D,
+//   F2 = K D s^2/(1-s),  s = (overlap - D)/D,   K from the closing speed at overlap = D,
+// which is a function of the overlap alone (no energy is made), starts smoothly, and bounds the overlap by 2 D.
+//
+// Adhesion acts over d0 = 0.4 nm: no sub-step can sample that well, and a constant attraction during a soft contact
+// would store F0^2/(2k) instead of U. So the well is booked, not sampled:
+//   first touch : v^2 -> v^2 + 2U/m*      (the pair falls into the well)
+//   separation  : v^2 -> v^2 - 2U/m*      if the kinetic energy of separation exceeds U,
+//                 else the contact is bonded;
+//   bonded      : in tension a spring k_p = F0^2/(2U) = F0/(2 d0), which breaks at the pull-off force F0 having stored
+//                 just U. So a slow pull ends at F0, a blow at U, whatever k is.
+// A rebound that turns back before it separates is bonded too. Friction holds up to mu (F_spring + F0) when bonded, and
+// mu F_spring in an impact; the spring's impulse equals the whole normal impulse (the dashpot's integral over a closed
+// contact is zero), so sliding impacts follow e_t = 1 - mu (1+e) cot(theta) for every e.
+
+#include "dem/contact_step.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "dem/first_touch.hpp"
+#include "dem/linear_contact.hpp"
+
+namespace puffin::dem {
+namespace {
+
+using Eigen::Vector3d;
+constexpr double never = std::numeric_limits<double>::infinity();
+constexpr double touching = 1e-9;      // of the radius: a gap below this is rounding of the positions
+constexpr double knee_capacity = 8.0;  // K = 8 m* (v/D)^2 takes the energy m* v^2/2 within s = 1/2 (0.068 K D^2)
+
+/// Positions and speeds of a touch.
+struct Meeting {
+  Vector3d normal;                  // towards a
+  double overlap = 0.0;             // > 0 pressed [m]
+  double arm_a = 0.0, arm_b = 0.0;  // from the centres to the place of contact [m]
+};
+
+Meeting meet(const Touch& touch, const Body& a, const Body* b) {
+  Meeting m;
+  if (b != nullptr) {
+    const Vector3d apart = a.x - b->x;
+    const double distance = apart.norm();
+    m.normal = distance > 0.0 ? Vector3d(apart / distance) : touch.memory.normal;
+    m.overlap = touch.reach - distance;
+    m.arm_a = distance * a.radius / touch.reach;  // the arms add up to the distance: angular momentum is kept exactly
+    m.arm_b = distance - m.arm_a;
+  } else {
+    m.normal = touch.plane.normal;
+    m.arm_a = m.normal.dot(a.x - touch.plane.point);
+    m.overlap = a.radius - m.arm_a;
+  }
+  return m;
+}
+
+/// Velocity of a's surface relative to b's at the place of contact, of the half step, or at its predicted end.
+Vector3d surface_velocity(const Meeting& m, const Body& a, const Body* b, bool end) {
+  Vector3d v = end ? Vector3d(a.v + a.kick) : a.v;
+  Vector3d turn = m.arm_a * (end ? Vector3d(a.w + a.twist) : a.w);
+  if (b != nullptr) {
+    v -= end ? Vector3d(b->v + b->kick) : b->v;
+    turn += m.arm_b * (end ? Vector3d(b->w + b->twist) : b->w);
+  }
+  return v - turn.cross(m.normal);
+}
+
+Vector3d centre_velocity(const Body& a, const Body* b, bool end) {
+  Vector3d v = end ? Vector3d(a.v + a.kick) : a.v;
+  if (b != nullptr) v -= end ? Vector3d(b->v + b->kick) : b->v;
+  return v;
+}
+
+Vector3d acceleration(const Body& a, const Body* b) {
+  return b != nullptr ? Vector3d(a.acceleration - b->acceleration) : a.acceleration;
+}
+
+void push(const Vector3d& impulse, Body& a, Body* b) {
+  a.v += impulse * a.inverse_mass;
+  if (b != nullptr) b->v -= impulse * b->inverse_mass;
+}
+
+/// An impulse at the place of contact, with its moment.
+void push_at_contact(const Vector3d& impulse, const Meeting& m, Body& a, Body* b) {
+  push(impulse, a, b);
+  const Vector3d moment = m.normal.cross(impulse);
+  a.w -= moment * (m.arm_a * a.inverse_inertia);
+  if (b != nullptr) b->w -= moment * (m.arm_b * b->inverse_inertia);
+}
+
+double knee(const Rules& rules, const Touch& touch) {
+  const SurfaceLaw& law = touch.b >= 0 ? rules.carrier : rules.wall;
+  return law.stiffness > 0.0 ? 5.0 * touch.pair.allowed : touch.pair.allowed;  // a given stiffness is left alone longer
+}
+
+/// Largest sub-step for an oscillation of stiffness k.
+double allowed_step(const Rules& rules, const SurfaceLaw& law, const Touch& touch, double k) {
+  // the tangential spring with its smaller effective mass (2/7 m*) may be the faster one
+  const double fastest = std::max(1.0, rules.rotation ? 3.5 * law.tangential_ratio : law.tangential_ratio);
+  return std::numbers::pi * std::sqrt(touch.pair.mass / (k * fastest)) / rules.integration.steps_per_contact;
+}
+
+/// First touch: logs it, lets adhesion pull, chooses the stiffness.
+void begin_contact(const Meeting& m, double h, double time, const Rules& rules, Cluster& cluster, Touch& touch, Body& a,
+                   Body* b) {
+  const SurfaceLaw& law = b != nullptr ? rules.carrier : rules.wall;
+  const Vector3d velocity = centre_velocity(a, b, true);
+  const double speed = std::max(0.0, -m.normal.dot(velocity));
+  const double tangential = (velocity + speed * m.normal).norm();
+  const double pulled = std::sqrt(speed * speed + 2.0 * touch.pair.well / touch.pair.mass);
+  const double since = pulled > 0.0 ? std::min(h, std::max(0.0, m.overlap) / pulled) : 0.0;
+
+  touch.memory = Contact{};
+  Contact& c = touch.memory;
+  c.phase = ContactPhase::impact;
+  c.a = a.carrier, c.b = b != nullptr ? b->carrier : -1;
+  c.triangle = b != nullptr ? -1 : touch.plane.triangle;
+  c.normal = m.normal;
+  c.time_start = time - since;
+  // Overlap that no motion explains (placed so, or a wall that bends under it) is taken as the shape, without force.
+  c.offset = std::max(0.0, m.overlap - 2.0 * h * pulled);
+  c.normal_speed = speed, c.tangential_speed = tangential;
+  double load = a.load_size;
+  if (b != nullptr) load = std::max(load, b->load_size);
+  c.stiffness = first_stiffness(law, touch.pair, pulled, load);
+  set_dashpots(rules, touch);
+  push(-m.normal * ((pulled - speed) * touch.pair.mass), a, b);
+
+  ContactBegun begun;
+  begun.a = a.id, begun.b = b != nullptr ? b->id : -1;
+  begun.triangle = c.triangle;
+  begun.point = b != nullptr ? Vector3d(a.x - m.arm_a * m.normal) : touch.plane.point;
+  begun.normal = m.normal;
+  begun.normal_speed = speed, begun.tangential_speed = tangential;
+  begun.angle = std::atan2(tangential, speed);
+  begun.time = c.time_start;
+  cluster.begun.push_back(begun);
+}
+
+/// True if the contact ends now: it left its first impact with more than the energy of the well. Otherwise it is
+/// bonded. Gives back what the last half kick pushed too much, since the contact carried forces only up to `since` ago.
+bool separates(const Meeting& m, double h, double since, Touch& touch, Body& a, Body* b) {
+  push_at_contact(m.normal * (-0.5 * since * touch.spring_force + (0.5 * h - since) * touch.dashpot_force) -
+                      0.5 * since * touch.slip_force,
+                  m, a, b);
+  const double speed = m.normal.dot(centre_velocity(a, b, true));
+  const double left = speed * speed - 2.0 * touch.pair.well / touch.pair.mass;
+  if (speed <= 0.0 || left <= 0.0) return touch.pair.well == 0.0;
+  push(m.normal * ((std::sqrt(left) - speed) * touch.pair.mass), a, b);
+  return true;
+}
+
+/// Tangential force on a [N]: spring and dashpot up to the friction limit; moves the spring by `step` [s].
+Vector3d slip_force(const Meeting& m, double step, double limit_force, const Rules& rules, const SurfaceLaw& law,
+                    Touch& touch, const Body& a, const Body* b) {
+  Contact& c = touch.memory;
+  const double k = law.tangential_ratio * c.stiffness;
+  Vector3d half = surface_velocity(m, a, b, false);
+  half -= m.normal * m.normal.dot(half);
+  Vector3d end = surface_velocity(m, a, b, true);
+  end -= m.normal * m.normal.dot(end);
+  c.slip -= m.normal * m.normal.dot(c.slip);
+  c.slip += step * half;
+  Vector3d force = -k * c.slip - touch.eta_slip * end;
+  const double limit = law.friction(law.slip_speed > 0.0 ? end.norm() : 0.0) * limit_force;
+  const double size2 = force.squaredNorm();
+  if (size2 > limit * limit) force *= limit / std::sqrt(size2);
+  const double stretch2 = k * k * c.slip.squaredNorm();
+  if (stretch2 > limit * limit) c.slip *= limit / std::sqrt(stretch2);
+  c.use = limit > 0.0 ? std::min(1.0, force.norm() / limit) : 1.0;
+  c.hold = limit;
+  (void)rules;
+  return force;
+}
+
+/// Rolling moment on a [N m] (EPSD2: elastic up to mu_r R* F, Ai et al. 2011), with the contact's damping ratio.
+Vector3d rolling_moment(const Meeting& m, double step, double limit_force, const SurfaceLaw& law, Touch& touch,
+                        const Body& a, const Body* b) {
+  Contact& c = touch.memory;
+  const double k = law.tangential_ratio * c.stiffness * touch.pair.radius * touch.pair.radius;
+  Vector3d half = a.w, end = a.w + a.twist;
+  double inverse = a.inverse_inertia;
+  if (b != nullptr) half -= b->w, end -= b->w + b->twist, inverse += b->inverse_inertia;
+  half -= m.normal * m.normal.dot(half);
+  end -= m.normal * m.normal.dot(end);
+  c.roll -= m.normal * m.normal.dot(c.roll);
+  c.roll += step * half;
+  Vector3d moment = -k * c.roll - 2.0 * std::max(law.zeta, 0.1) * std::sqrt(k / inverse) * end;
+  const double limit = law.rolling * touch.pair.radius * limit_force;
+  const double size = moment.norm(), stretch = k * c.roll.norm();
+  if (size > limit) moment *= limit / size;
+  if (stretch > limit) c.roll *= limit / stretch;
+  if (limit > 0.0) c.use = std::max(c.use, std::min(1.0, moment.norm() / limit));
+  return moment;
+}
+
+/// The touch is not live: how long may the next sub-step be, so as not to run far into the contact?
+double time_to_touch(const Meeting& m, double horizon, const Rules& rules, const Touch& touch, const Body& a,
+                     const Body* b) {
+  const double closing = -m.normal.dot(centre_velocity(a, b, true));
+  if (closing <= 0.0 || -m.overlap > closing * horizon) return never;
+  const SurfaceLaw& law = b != nullptr ? rules.carrier : rules.wall;
+  const double k = first_stiffness(law, touch.pair, closing, a.load_size);
+  return std::max(0.0, -m.overlap) / closing + 0.5 * allowed_step(rules, law, touch, k);
+}
+
+}  // namespace
+
+void note_overlap(const Touch& touch, Cluster& cluster) {
+  const double a = cluster.bodies[touch.a].radius;
+  const double smaller = touch.b >= 0 ? std::min(a, cluster.bodies[touch.b].radius) : a;
+  cluster.largest_overlap = std::max(cluster.largest_overlap, touch.memory.max_overlap / (2.0 * smaller));
+}
+
+void end_contact(double time, Cluster& cluster, Touch& touch) {
+  const Body& a = cluster.bodies[touch.a];
+  const Body* b = touch.b >= 0 ? &cluster.bodies[touch.b] : nullptr;
+  const Contact& c = touch.memory;
+  note_overlap(touch, cluster);
+  ContactEnded ended;
+  ended.time_start = c.time_start, ended.time_end = time;
+  ended.a = a.id, ended.b = b != nullptr ? b->id : -1;
+  ended.triangle = c.triangle;
+  ended.normal_speed = c.normal_speed, ended.tangential_speed = c.tangential_speed;
+  const double mass = b != nullptr ? 0.5 * (a.single_mass + b->single_mass) : a.single_mass;
+  const double speed2 =
+      c.normal_speed * c.normal_speed + (b != nullptr ? c.tangential_speed * c.tangential_speed : 0.0);
+  ended.energy = 0.5 * mass * speed2;
+  ended.max_force = c.max_force, ended.max_overlap = c.max_overlap;
+  cluster.ended.push_back(ended);
+  touch.memory = Contact{};
+  touch.spring_force = touch.dashpot_force = 0.0;
+  touch.slip_force = Vector3d::Zero();
+}
+
+double evaluate(std::size_t index, double h, double time, double horizon, const Rules& rules, Cluster& cluster,
+                bool& live) {
+  Touch& touch = cluster.touches[index];
+  Body& a = cluster.bodies[touch.a];
+  Body* b = touch.b >= 0 ? &cluster.bodies[touch.b] : nullptr;
+  Contact& c = touch.memory;
+  Meeting m = meet(touch, a, b);
+  const SurfaceLaw& law = b != nullptr ? rules.carrier : rules.wall;
+  double share = h;  // the part of the last sub-step during which the present force acted
+
+  if (c.phase == ContactPhase::free) {
+    if (touch.lost || m.overlap < -touching * a.radius) {
+      return touch.lost ? never : time_to_touch(m, horizon, rules, touch, a, b);
+    }
+    const double parting = m.normal.dot(centre_velocity(a, b, true));
+    if (parting > 0.0 || (parting == 0.0 && m.normal.dot(acceleration(a, b)) >= 0.0)) return never;
+    if (b != nullptr && b->sleeper) b->disturbed = cluster.disturbed = true;
+    begin_contact(m, h, time, rules, cluster, touch, a, b);
+    share = time - c.time_start;
+    if (b == nullptr && rules.on_wall == OnWall::stick) {
+      a.stuck = a.fixed = true;
+      a.inverse_mass = a.inverse_inertia = 0.0;
+      a.v = a.w = a.kick = a.twist = Vector3d::Zero();
+      end_contact(time, cluster, touch);
+      return never;
+    }
+  }
+
+  m.overlap -= c.offset;
+  double closing = -m.normal.dot(centre_velocity(a, b, true));
+  if (c.phase == ContactPhase::impact && closing < 0.0) c.phase = ContactPhase::leaving;
+  if (c.phase == ContactPhase::leaving && closing > 0.0 && m.overlap > 0.0)
+    c.phase = touch.pair.pull_off > 0.0 ? ContactPhase::bonded : ContactPhase::impact;
+  if (c.phase != ContactPhase::bonded && m.overlap <= 0.0 && closing < 0.0) {
+    const double since = std::min(h, m.overlap / closing);
+    if (separates(m, h, since, touch, a, b)) {
+      end_contact(time - since, cluster, touch);
+      return never;
+    }
+    c.phase = ContactPhase::bonded;
+    share = since;
+    closing = -m.normal.dot(centre_velocity(a, b, true));
+  }
+
+  // Normal force.
+  const bool bonded = c.phase == ContactPhase::bonded;
+  const double allowed = knee(rules, touch);
+  double spring = 0.0, eta = touch.eta, tangent = c.stiffness;
+  if (m.overlap > 0.0) {
+    spring = c.stiffness * m.overlap;
+    if (m.overlap > allowed) {
+      if (c.knee_stiffness == 0.0) {
+        const double v = std::max(0.0, closing) / allowed;
+        c.knee_stiffness = std::max(c.stiffness, knee_capacity * touch.pair.mass * v * v);
+      }
+      const double s = std::min(0.99, (m.overlap - allowed) / allowed), rest = 1.0 - s;
+      spring += c.knee_stiffness * allowed * s * s / rest;
+      tangent += c.knee_stiffness * (2.0 - s) * s / (rest * rest);
+      eta = 2.0 * law.zeta * std::sqrt(touch.pair.mass * tangent);
+    } else {
+      c.knee_stiffness = 0.0;
+    }
+  } else if (bonded) {
+    spring = touch.pair.pull_stiffness * m.overlap;
+    tangent = touch.pair.pull_stiffness;
+    eta = touch.eta_pull;
+    if (-spring >= touch.pair.pull_off) {
+      end_contact(time, cluster, touch);
+      return never;
+    }
+  }
+  // The dashpot acts on the speed at the end of the sub-step. The predicted one carries the old force of this contact;
+  // to put its new force there instead, dashpot included, is second order with a small constant (e right within 0.1 %).
+  const double response = 0.5 * h / touch.pair.mass;
+  const double dashpot =
+      eta * (closing + response * (touch.spring_force + touch.dashpot_force - spring)) / (1.0 + response * eta);
+
+  // Friction and rolling, held by what presses the surfaces together.
+  const double pressing = std::max(0.0, spring) + (bonded ? touch.pair.pull_off + std::min(0.0, spring) : 0.0);
+  const Vector3d tangential = slip_force(m, share, pressing, rules, law, touch, a, b);
+  if (bonded) {
+    c.use = std::max(c.use, std::max(0.0, -spring) / touch.pair.pull_off);
+    c.hold = std::min(c.hold, touch.pair.pull_off);
+  } else {
+    c.hold = std::min(c.hold, spring);
+  }
+  const Vector3d force = m.normal * (spring + dashpot) + tangential;
+  Vector3d torque_a = -m.arm_a * m.normal.cross(tangential), torque_b = -m.arm_b * m.normal.cross(tangential);
+  if (law.rolling > 0.0 && rules.rotation) {
+    const Vector3d moment = rolling_moment(m, share, pressing, law, touch, a, b);
+    torque_a += moment;
+    torque_b -= moment;
+  }
+  a.force += force;
+  a.torque += torque_a;
+  if (b != nullptr) b->force -= force, b->torque += torque_b;
+  if (share < h)  // a contact younger than the sub-step: take back the excess of the half kick to come
+    push_at_contact(
+        m.normal * (0.5 * (share - h) * spring + (share - 0.5 * h) * dashpot) + 0.5 * (share - h) * tangential, m, a,
+        b);
+
+  touch.spring_force = spring, touch.dashpot_force = dashpot, touch.slip_force = tangential;
+  c.normal = m.normal;
+  c.force = force;
+  c.normal_force = spring + dashpot;
+  c.max_force = std::max(c.max_force, c.normal_force);
+  c.max_overlap = std::max(c.max_overlap, m.overlap);
+  live = true;
+
+  // The next sub-step.
+  double step = allowed_step(rules, law, touch, tangent);
+  if (closing > 0.0) {
+    if (m.overlap > allowed)
+      step = std::min(step, 0.1 * std::max(2.0 * allowed - m.overlap, 0.01 * allowed) / closing);
+    else if (closing * step > allowed - m.overlap)
+      step = std::min(step, (allowed - m.overlap + 0.05 * allowed) / closing);
+  }
+  // Leaving: end the sub-step where the overlap is gone, if that is not much less than a sub-step away.
+  if (closing < 0.0 && m.overlap > 0.0) {
+    const double fall = first_zero(m.overlap, closing, (spring + dashpot) / -touch.pair.mass, step);
+    if (fall < step) step = std::max(fall, 0.25 * step);
+  }
+  // Near separation, slow enough to bond: the stiffer spring of tension is about to take over.
+  if (touch.pair.well > 0.0 && m.overlap > 0.0 &&
+      (bonded || closing * closing * touch.pair.mass < 8.0 * touch.pair.well)) {
+    const double pull_step = allowed_step(rules, law, touch, std::max(tangent, touch.pair.pull_stiffness));
+    const double fall = m.overlap / std::max(std::abs(closing), 1e-300);
+    if (closing < 0.0)
+      step = std::min(step, std::max(pull_step, 0.5 * fall));
+    else if (m.overlap < 2.0 * step * closing || closing == 0.0)
+      step = std::min(step, pull_step);
+  }
+  return step;
+}
+
+}  // namespace puffin::dem

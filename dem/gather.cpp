@@ -1,0 +1,242 @@
+#include "dem/gather.hpp"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "dem/chains.hpp"
+#include "dem/first_touch.hpp"
+
+namespace puffin::dem {
+namespace {
+
+using Eigen::Vector3d;
+constexpr int steps_of_budget = 8;  // a neighbour list should serve this many steps at the present speeds
+
+bool moves(const State& state, std::int32_t i) { return state.carriers.rest[i] == Rest::awake; }
+
+/// Nearest approach of two centres on straight courses within the step, less the sum of radii [m].
+double course_gap(double duration, const Carriers& all, std::int32_t i, std::int32_t j) {
+  const Vector3d p = all.position[i] - all.position[j], w = all.velocity[i] - all.velocity[j];
+  const double pw = p.dot(w), w2 = w.squaredNorm();
+  const double time = pw < 0.0 ? std::min(duration, -pw / w2) : 0.0;
+  return (p + time * w).norm() - all.radius[i] - all.radius[j];
+}
+
+/// True if a wall may be touched within the step.
+bool may_touch_wall(double duration, const Vector3d& x, const Vector3d& v, const Vector3d& a, double radius,
+                    double margin, const WallCache& cache) {
+  const double way = v.norm() * duration;
+  for (const WallPlane& plane : cache.planes) {
+    const double gap = plane.gap(x, radius) - margin;
+    if (gap < 0.0 || first_zero(gap, plane.normal.dot(v), plane.normal.dot(a), duration) <= duration) return true;
+    // Further than the planes are trusted, another place of the wall may come up.
+    if (way > 0.2 * radius && gap < way) return true;
+  }
+  return false;
+}
+
+std::int32_t root(std::vector<std::int32_t>& parent, std::int32_t i) {
+  while (parent[i] != i) i = parent[i] = parent[parent[i]];
+  return i;
+}
+
+void unite(std::vector<std::int32_t>& parent, std::int32_t i, std::int32_t j) {
+  i = root(parent, i), j = root(parent, j);
+  if (i != j) parent[std::max(i, j)] = std::min(i, j);
+}
+
+/// Pairs whose straight courses, widened by the margins, come together.
+void find_pairs(double duration, const State& state, Gathering& g) {
+  const Carriers& all = state.carriers;
+  const Neighbours& near = state.neighbours;
+  g.pairs.clear();
+  for (const std::int32_t i : g.awake) {
+    const Vector3d x = all.position[i], v = all.velocity[i];
+    for (std::int32_t e = near.begin[i]; e < near.begin[i + 1]; ++e) {
+      const std::int32_t j = near.list[e];
+      const bool free = moves(state, j);
+      if (free && j < i) continue;
+      const double margin = g.margin[i] + (free ? g.margin[j] : 0.0);
+      const Vector3d p = x - all.position[j], w = v - all.velocity[j];
+      const double reach = all.radius[i] + all.radius[j] + margin;
+      const double p2 = p.squaredNorm(), pw = p.dot(w), w2 = w.squaredNorm();
+      if (p2 > reach * reach) {
+        if (pw >= 0.0) continue;
+        const double time = std::min(duration, -pw / w2);
+        if (p2 + time * (2.0 * pw + time * w2) > reach * reach) continue;
+      }
+      g.pairs.push_back({i, j});
+    }
+  }
+}
+
+/// What contacts of this step may do to the courses: widens the margins of the carriers that will meet something.
+bool widen_margins(double duration, const Rules& rules, const State& state, Gathering& g) {
+  const Carriers& all = state.carriers;
+  bool widened = false;
+  const auto widen = [&](std::int32_t i, double speed_change, double left) {
+    if (speed_change <= 0.0 || left <= 0.0) return;
+    g.margin[i] += speed_change * left;
+    widened = true;
+  };
+  for (const auto& [i, j] : g.pairs) {
+    const Vector3d p = all.position[i] - all.position[j], w = all.velocity[i] - all.velocity[j];
+    const double reach = all.radius[i] + all.radius[j];
+    const double time = std::max(0.0, first_touch(p, w, Vector3d::Zero(), reach, duration));
+    if (!(time <= duration)) continue;
+    const Vector3d q = p + time * w;
+    const double closing = std::max(0.0, -q.dot(w) / q.norm());
+    const double e = 1.0 + rules.carrier.restitution + rules.carrier.largest_friction();
+    const bool free = moves(state, j);
+    const double share = free ? all.mass[j] / (all.mass[i] + all.mass[j]) : 1.0;
+    widen(i, e * share * closing, duration - time);
+    if (free) widen(j, e * (1.0 - share) * closing, duration - time);
+  }
+  for (const std::int32_t i : g.awake)
+    for_each_contact(state, i, [&](std::int32_t place) {
+      const Contact& c = state.contacts[place];
+      const Vector3d w = c.b >= 0 ? Vector3d(all.velocity[c.a] - all.velocity[c.b]) : all.velocity[c.a];
+      widen(i, w.norm() + std::abs(c.normal_force) / std::sqrt(c.stiffness * all.mass[i]), duration);
+    });
+  return widened;
+}
+
+}  // namespace
+
+void predict(double duration, const Rules& rules, const Walls& walls, std::span<const Load> loads, State& state,
+             Gathering& g) {
+  const Carriers& all = state.carriers;
+  const std::size_t n = all.size();
+  g.awake.clear();
+  for (std::size_t i = 0; i < n; ++i)
+    if (all.rest[i] == Rest::awake) g.awake.push_back(static_cast<std::int32_t>(i));
+  g.acceleration.resize(n), g.margin.resize(n), g.at_wall.resize(n);
+  g.parent.resize(n), g.cluster_of.resize(n), g.local_of.resize(n);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, g.awake.size(), 128), [&](const auto& range) {
+    thread_local std::vector<WallTouch> touches;
+    for (std::size_t k = range.begin(); k < range.end(); ++k) {
+      const std::int32_t i = g.awake[k];
+      const Load& load = loads[i];
+      g.acceleration[i] =
+          rules.gravity + (load.drag * (load.air_velocity - all.velocity[i]) + load.force) / all.mass[i];
+      const double bend = 0.5 * g.acceleration[i].norm() * duration * duration;
+      g.margin[i] = bend;
+      const double travel = all.velocity[i].norm() * duration + bend;
+      look_at_walls(walls, all.position[i], all.radius[i], travel, touches, state.walls[i]);
+      g.at_wall[i] = may_touch_wall(duration, all.position[i], all.velocity[i], g.acceleration[i], all.radius[i], 0.0,
+                                    state.walls[i]);
+    }
+  });
+}
+
+bool neighbours_suffice(double duration, const State& state, const Gathering& g) {
+  const Neighbours& near = state.neighbours;
+  if (!near.valid) return false;
+  for (const std::int32_t i : g.awake) {
+    const double left = near.budget[i] - state.carriers.velocity[i].norm() * duration - g.margin[i];
+    if (left < 0.0 || (state.carriers.position[i] - near.built_at[i]).squaredNorm() > left * left) return false;
+  }
+  return true;
+}
+
+void renew_neighbours(double duration, const Rules& rules, const Gathering& g, State& state) {
+  const Carriers& all = state.carriers;
+  double diameter = 0.0;
+  for (const double r : all.radius) diameter += 2.0 * r / static_cast<double>(all.size());
+  state.neighbours.budget.assign(all.size(), 0.5 * rules.integration.skin * diameter);
+  for (const std::int32_t i : g.awake)
+    state.neighbours.budget[i] += steps_of_budget * (all.velocity[i].norm() * duration + g.margin[i]);
+  build(all, state.neighbours);
+  ++state.statistics.rebuilds;
+}
+
+void find_clusters(double duration, const Rules& rules, const State& state, Gathering& g) {
+  find_pairs(duration, state, g);
+  if (widen_margins(duration, rules, state, g)) {
+    find_pairs(duration, state, g);
+    const Carriers& all = state.carriers;
+    for (const std::int32_t i : g.awake)
+      if (!g.at_wall[i])
+        g.at_wall[i] = may_touch_wall(duration, all.position[i], all.velocity[i], g.acceleration[i], all.radius[i],
+                                      g.margin[i], state.walls[i]);
+  }
+  // Unite.
+  std::vector<std::uint8_t>& busy = g.at_wall;
+  for (const std::int32_t i : g.awake) {
+    g.parent[i] = i;
+    if (state.first_contact[i] >= 0) busy[i] = 1;
+  }
+  for (const auto& [i, j] : g.pairs) {
+    busy[i] = 1;
+    if (moves(state, j)) busy[j] = 1, unite(g.parent, i, j);
+  }
+  for (const std::int32_t i : g.awake)
+    for_each_contact(state, i, [&](std::int32_t place) {
+      const Contact& c = state.contacts[place];
+      if (c.b >= 0 && moves(state, c.a) && moves(state, c.b)) unite(g.parent, c.a, c.b);
+    });
+  // Number the clusters in the order of their first member; sort members and pairs into them.
+  g.member_begin.assign(1, 0);
+  g.used = 0;
+  for (const std::int32_t i : g.awake) {
+    g.cluster_of[i] = -1;
+    if (!busy[i]) continue;
+    const std::int32_t r = root(g.parent, i);
+    g.cluster_of[i] = r == i ? static_cast<std::int32_t>(g.used++) : g.cluster_of[r];
+    if (r == i) g.member_begin.push_back(0);
+    g.local_of[i] = g.member_begin[g.cluster_of[i] + 1]++;
+  }
+  for (std::size_t c = 0; c < g.used; ++c) g.member_begin[c + 1] += g.member_begin[c];
+  g.members.resize(g.member_begin[g.used]);
+  for (const std::int32_t i : g.awake)
+    if (g.cluster_of[i] >= 0) g.members[g.member_begin[g.cluster_of[i]] + g.local_of[i]] = i;
+  g.pair_begin.assign(g.used + 1, 0);
+  for (const auto& [i, j] : g.pairs) ++g.pair_begin[g.cluster_of[i] + 1];
+  for (std::size_t c = 0; c < g.used; ++c) g.pair_begin[c + 1] += g.pair_begin[c];
+  g.pair_order.resize(g.pairs.size());
+  std::vector<std::int32_t> next(g.pair_begin.begin(), g.pair_begin.end() - 1);
+  for (std::size_t p = 0; p < g.pairs.size(); ++p)
+    g.pair_order[next[g.cluster_of[g.pairs[p][0]]]++] = static_cast<std::int32_t>(p);
+  if (g.clusters.size() < g.used) g.clusters.resize(g.used);
+}
+
+bool guess_held(double duration, State& state, Gathering& g) {
+  const Carriers& all = state.carriers;
+  bool held = true;
+  std::vector<std::int32_t> loose;
+  for (std::size_t c = 0; c < g.used; ++c) {
+    Cluster& cluster = g.clusters[c];
+    for (Body& body : cluster.bodies) {
+      if (body.sleeper && body.disturbed) {
+        wake(body.carrier, state);
+        held = false;
+      }
+      if (cluster.disturbed || (body.fixed && !body.stuck)) continue;
+      if (body.deviation > g.margin[body.carrier])
+        loose.push_back(body.carrier), g.margin[body.carrier] = body.deviation;
+      if ((body.x - state.neighbours.built_at[body.carrier]).norm() + body.deviation >
+          state.neighbours.budget[body.carrier] + body.deviation)
+        state.neighbours.valid = false, held = false;
+    }
+  }
+  if (!held) return false;
+  const auto listed = [&](std::int32_t i, std::int32_t j) {
+    const std::array<std::int32_t, 2> pair = moves(state, j)
+                                                 ? std::array<std::int32_t, 2>{std::min(i, j), std::max(i, j)}
+                                                 : std::array<std::int32_t, 2>{i, j};
+    return std::binary_search(g.pairs.begin(), g.pairs.end(), pair);
+  };
+  for (const std::int32_t i : loose) {
+    for (std::int32_t e = state.neighbours.begin[i]; e < state.neighbours.begin[i + 1]; ++e) {
+      const std::int32_t j = state.neighbours.list[e];
+      const double margin = g.margin[i] + (moves(state, j) ? g.margin[j] : 0.0);
+      if (course_gap(duration, all, i, j) < margin && !listed(i, j)) held = false;
+    }
+  }
+  return held;
+}
+
+}  // namespace puffin::dem
