@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """clang-tidy with the .clang-tidy of the root finds nothing in the .cpp files that the build compiles.
 
-usage: check_tidy.py ROOT BUILD_DIR [CLANG_TIDY]
+usage: check_tidy.py ROOT BUILD_DIR sources|tests [CLANG_TIDY]
 
-Checks the tracked files that BUILD_DIR/compile_commands.json lists, and through them the headers of our folders. Says
-which tracked .cpp files the build does not compile, so that nothing is left out in silence.
+sources: all tracked .cpp files but those of tests/; tests: those. Only files that BUILD_DIR/compile_commands.json lists,
+and through them the headers of our folders. Says which files the build does not compile: nothing is left out in silence.
 """
 
 import json
@@ -18,12 +18,13 @@ from pathlib import Path
 from tree import conclude, cpp
 
 
-def compiled(root: Path, build: Path) -> list[Path]:
-    """Tracked .cpp files that the build compiles, relative to root, heaviest first as far as the size tells."""
+def chosen(root: Path, which: str) -> list[Path]:
+    return [path for path in cpp(root) if path.suffix == ".cpp" and (path.parts[0] == "tests") == (which == "tests")]
+
+
+def compiled(build: Path) -> set[Path]:
     commands = json.loads((build / "compile_commands.json").read_text())
-    known = {(Path(entry["directory"]) / entry["file"]).resolve() for entry in commands}
-    paths = [path for path in cpp(root) if path.suffix == ".cpp" and (root / path).resolve() in known]
-    return sorted(paths, key=lambda path: -(root / path).stat().st_size)
+    return {(Path(entry["directory"]) / entry["file"]).resolve() for entry in commands}
 
 
 def tidy(root: Path, build: Path, program: str, path: Path) -> tuple[Path, float, str]:
@@ -33,13 +34,16 @@ def tidy(root: Path, build: Path, program: str, path: Path) -> tuple[Path, float
     return path, time.monotonic() - begin, run.stdout + run.stderr if run.returncode != 0 else ""
 
 
-def check(root: Path, build: Path, program: str = "clang-tidy") -> list[str]:
-    paths = compiled(root, build)
+def check(root: Path, build: Path, which: str, program: str = "clang-tidy") -> list[str]:
+    known = compiled(build)
+    paths = [path for path in chosen(root, which) if (root / path).resolve() in known]
     if not paths:
-        return [f"{build} compiles none of our files: is it a build folder of this tree?"]
-    left_out = [path for path in cpp(root) if path.suffix == ".cpp" and path not in set(paths)]
+        return [f"{build} compiles none of our {which}: is it a build folder of this tree?"]
     jobs = len(os.sched_getaffinity(0))
-    print(f"{len(paths)} files, {jobs} at a time" + "".join(f"\nnot compiled by this build: {p}" for p in left_out))
+    print(f"clang-tidy: {len(paths)} files of the {which}, {jobs} at a time")
+    for path in chosen(root, which):
+        if path not in paths:
+            print(f"not compiled by this build, so not checked: {path}")
     try:
         with ThreadPoolExecutor(jobs) as pool:
             results = list(pool.map(lambda path: tidy(root, build, program, path), paths))
@@ -51,4 +55,4 @@ def check(root: Path, build: Path, program: str = "clang-tidy") -> list[str]:
 
 
 if __name__ == "__main__":
-    sys.exit(conclude("clang-tidy", check(Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve(), *sys.argv[3:4])))
+    sys.exit(conclude("clang-tidy", check(Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve(), *sys.argv[3:5])))

@@ -163,26 +163,31 @@ class Tidy(SmallTree):
                     for path in paths]
         self.write("build/compile_commands.json", json.dumps(commands))
 
+    def faults(self, which: str = "sources") -> list[str]:
+        return check_tidy.check(self.root, self.root / "build", which)
+
     def test_suspicious_code_is_a_fault(self):
         self.write("lbm/a.cpp", self.BAD)
         self.compile("lbm/a.cpp")
-        self.assert_one(check_tidy.check(self.root, self.root / "build"), "lbm/a.cpp", "bugprone-branch-clone")
+        self.assert_one(self.faults(), "lbm/a.cpp", "bugprone-branch-clone")
 
     def test_our_headers_are_looked_at(self):
         self.write("lbm/a.hpp", "#pragma once\n" + self.BAD)
         self.write("lbm/a.cpp", '#include "lbm/a.hpp"\n')
         self.compile("lbm/a.cpp")
-        self.assert_one(check_tidy.check(self.root, self.root / "build"), "lbm/a.hpp", "bugprone-branch-clone")
+        self.assert_one(self.faults(), "lbm/a.hpp", "bugprone-branch-clone")
 
-    def test_sound_code_is_in_order(self):
+    def test_sources_and_tests_are_told_apart(self):
         self.write("lbm/a.cpp", "int twice(int x) { return 2 * x; }\n")
-        self.compile("lbm/a.cpp")
-        self.assertEqual(check_tidy.check(self.root, self.root / "build"), [])
+        self.write("tests/lbm/a.cpp", self.BAD)
+        self.compile("lbm/a.cpp", "tests/lbm/a.cpp")
+        self.assertEqual(self.faults("sources"), [])
+        self.assert_one(self.faults("tests"), "tests/lbm/a.cpp")
 
     def test_build_without_our_files_is_a_fault(self):
         self.write("lbm/a.cpp", "int x = 1;\n")
         self.compile()
-        self.assert_one(check_tidy.check(self.root, self.root / "build"), "none of our files")
+        self.assert_one(self.faults(), "none of our sources")
 
 
 if __name__ == "__main__":
