@@ -23,7 +23,8 @@ Override parse_override(std::string_view text);
 
 /// Reads and checks a case file, with the preset's values over the file's and the overrides over both.
 /// preset: "quick", "fast", "default", "accurate" or "" (as the file says).
-/// Throws CaseError with every problem of the file, std::system_error (as std::ios_base::failure) if it cannot be read.
+/// Throws CaseError with every problem of the file, std::system_error if it cannot be read, std::invalid_argument for
+/// an unknown preset.
 Case read_case(const std::filesystem::path& file, const std::vector<Override>& overrides = {},
                std::string_view preset = {});
 

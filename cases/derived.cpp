@@ -1,0 +1,103 @@
+#include "cases/derived.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+namespace puffin::cases {
+
+double TimeTable::at(double t) const {
+  if (t <= time.front()) return value.front();
+  if (t >= time.back()) return value.back();
+  const std::size_t i = std::upper_bound(time.begin(), time.end(), t) - time.begin();
+  const double s = (t - time[i - 1]) / (time[i] - time[i - 1]);
+  return value[i - 1] + s * (value[i] - value[i - 1]);
+}
+
+std::optional<double> flow_rate(const Boundary& b, double t, double area) {
+  if (const auto* rate = std::get_if<FlowRate>(&b.flow)) return rate->table.at(t);
+  if (const auto* speed = std::get_if<MeanSpeed>(&b.flow)) return speed->value * area;
+  return std::nullopt;
+}
+
+double mean_speed(const Boundary& b, double t, double area) {
+  if (const auto* rate = std::get_if<FlowRate>(&b.flow)) return rate->table.at(t) / area;
+  if (const auto* speed = std::get_if<MeanSpeed>(&b.flow)) return speed->value;
+  if (const auto* vector = std::get_if<Velocity>(&b.flow)) return vector->value.norm();
+  return 0.0;
+}
+
+double largest_mean_speed(const Air& air, double end, const AreaOf& area_of) {
+  double largest = 0.0;
+  for (const Boundary& b : air.boundaries) {
+    const double area = std::holds_alternative<FlowRate>(b.flow) ? area_of(b.patch) : 1.0;
+    largest = std::max({largest, std::abs(mean_speed(b, 0.0, area)), std::abs(mean_speed(b, end, area))});
+    if (const auto* rate = std::get_if<FlowRate>(&b.flow))
+      for (const double t : rate->table.time)
+        if (t < end) largest = std::max(largest, std::abs(mean_speed(b, t, area)));
+  }
+  return largest;
+}
+
+double reference_speed(const Case& c, const AreaOf& area_of) {
+  if (c.numerics.reference_speed) return *c.numerics.reference_speed;
+  double speed = std::max(largest_mean_speed(c.air, c.stop.time, area_of), c.air.initial_velocity.norm());
+  if (c.air.model == AirModel::frozen)
+    if (const auto* uniform = std::get_if<UniformField>(&c.air.frozen))
+      speed = std::max(speed, uniform->velocity.norm());
+  return speed;
+}
+
+double cell_size(const Numerics& n, double fluid_volume) {
+  if (n.dx) return *n.dx;
+  if (n.cells) return std::cbrt(fluid_volume / static_cast<double>(*n.cells));
+  throw std::invalid_argument("the case gives neither numerics.dx nor numerics.cells");
+}
+
+LatticeNumbers lattice_numbers(const Case& c, double dx, double reference, const AreaOf& area_of) {
+  if (!(dx > 0.0) || !(reference > 0.0)) throw std::invalid_argument("cell size and reference speed must be positive");
+  LatticeNumbers n;
+  n.dx = dx;
+  n.mach = std::sqrt(3.0) * c.numerics.lattice_speed;
+  const bool given = c.numerics.time_step == TimeStepRule::given;
+  n.dt = n.dt_largest = given ? c.numerics.time_step_seconds : c.numerics.lattice_speed * dx / reference;
+  if (given) n.mach = std::sqrt(3.0) * reference * n.dt / dx;
+  n.tau = 0.5 + 3.0 * c.air.viscosity / c.air.density * n.dt / (dx * dx);
+  n.steps = c.stop.time / n.dt;
+  if (c.numerics.time_step != TimeStepRule::follow_ramp || largest_mean_speed(c.air, c.stop.time, area_of) <= 0.0)
+    return n;
+  constexpr int samples = 2000;  // of the ramp: midpoints, so linear pieces are exact but for the cells with a kink
+  n.steps = 0.0;
+  for (int i = 0; i < samples; ++i) {
+    const double t = (i + 0.5) / samples * c.stop.time;
+    double speed = 0.0;
+    for (const Boundary& b : c.air.boundaries)
+      speed = std::max(speed,
+                       std::abs(mean_speed(b, t, std::holds_alternative<FlowRate>(b.flow) ? area_of(b.patch) : 1.0)));
+    const double stretch = std::clamp(reference / std::max(speed, 1e-30), 1.0, 4.0);
+    n.dt_largest = std::max(n.dt_largest, n.dt * stretch);
+    n.steps += c.stop.time / samples / (n.dt * stretch);
+  }
+  return n;
+}
+
+double reynolds(const Air& air, double speed, double length) { return air.density * speed * length / air.viscosity; }
+
+double carrier_mass(double diameter, double density) {
+  return density * std::numbers::pi / 6.0 * diameter * diameter * diameter;
+}
+
+double dose_mass(const Carriers& c) {
+  const double fines = 1.0 + c.fines_each * c.fine_mass_ratio;
+  if (c.list.empty()) return static_cast<double>(c.count) * carrier_mass(c.diameter, c.density) * fines;
+  double mass = 0.0;
+  for (const ListedCarrier& p : c.list) mass += c.parcel * carrier_mass(p.diameter, p.density) * fines;
+  return mass;
+}
+
+double fines_diameter(const Carriers& c, double fines_density) {
+  return c.diameter * std::cbrt(c.fine_mass_ratio * c.density / fines_density);
+}
+
+}  // namespace puffin::cases

@@ -1,0 +1,173 @@
+#include "cases/format/consistency.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "cases/generators/generators.hpp"
+#include "cases/spelling.hpp"
+#include "cases/units.hpp"
+
+namespace puffin::cases::format {
+namespace {
+
+std::string indexed(const std::string& key, std::size_t i) { return key + "[" + std::to_string(i) + "]"; }
+
+class Checks {
+ public:
+  Checks(const Case& c, Findings& findings) : c_(c), findings_(findings) {}
+
+  void all() {
+    geometry();
+    boundaries();
+    air();
+    carriers();
+    fines();
+    outputs();
+  }
+
+ private:
+  void say(const std::string& key, const std::string& text) {
+    if (!findings_.broken(key)) findings_.problem(key, key + ": " + text);
+  }
+
+  template <class List>
+  void unique_names(const std::string& key, const List& list) {
+    std::set<std::string> seen;
+    for (std::size_t i = 0; i < list.size(); ++i)
+      if (!list[i].name.empty() && !seen.insert(list[i].name).second)
+        say(indexed(key, i) + ".name", "the name '" + list[i].name + "' is used twice");
+  }
+
+  /// The patches that may be named. The solids of an STL file are known only when it is read: there nothing is checked
+  /// here (the geometry check does).
+  void geometry() {
+    unique_names("geometry.patch", c_.geometry.patches);
+    for (const Patch& p : c_.geometry.patches) patches_.push_back(p.name);
+    const auto* generated = std::get_if<Generated>(&c_.geometry.source);
+    patches_known_ = generated && !findings_.broken("geometry");
+    if (!patches_known_) return;
+    const std::vector<std::string> solids = generate(generated->kind, generated->parameters).solids;
+    patches_.insert(patches_.end(), solids.begin(), solids.end());
+  }
+
+  void known_patch(const std::string& key, const std::string& name) {
+    if (!patches_known_ || name.empty() || std::find(patches_.begin(), patches_.end(), name) != patches_.end()) return;
+    const std::string near = nearest(name, patches_);
+    say(key, "there is no patch '" + name + "'; " +
+                 (near.empty() ? "the patches are " + join(patches_) : "did you mean '" + near + "'?"));
+  }
+
+  void boundaries() {
+    std::set<std::string> seen;
+    bool inlet = false, outlet = false;
+    for (std::size_t i = 0; i < c_.air.boundaries.size(); ++i) {
+      const Boundary& b = c_.air.boundaries[i];
+      const std::string key = indexed("air.boundary", i);
+      known_patch(key + ".patch", b.patch);
+      if (!b.patch.empty() && !seen.insert(b.patch).second)
+        say(key + ".patch", "patch '" + b.patch + "' has two boundaries; keep one");
+      inlet = inlet || b.type == BoundaryType::velocity_inlet;
+      outlet = outlet || b.type == BoundaryType::pressure_outlet;
+      if (b.type == BoundaryType::periodic) {
+        known_patch(key + ".with", b.with);
+        if (b.with == b.patch) say(key + ".with", "a patch cannot be periodic with itself; name the opposite one");
+      }
+      if (const auto* rate = std::get_if<FlowRate>(&b.flow))
+        if (std::any_of(rate->table.value.begin(), rate->table.value.end(), [](double q) { return q < 0.0; }))
+          say(key + ".flow_rate", "an inlet's flow rate must not be negative");
+      if (const auto* speed = std::get_if<MeanSpeed>(&b.flow))
+        if (speed->value < 0.0) say(key + ".velocity", "the mean speed into the domain must not be negative");
+    }
+    if (c_.air.model == AirModel::lbm && inlet && !outlet)
+      say("air.boundary", "there is a velocity-inlet but no pressure-outlet: the air has nowhere to go");
+  }
+
+  void air() {
+    const Air& a = c_.air;
+    const Numerics& n = c_.numerics;
+    if (n.lattice_speed > 0.3)
+      say("numerics.lattice_speed", "beyond 0.3 no scheme here is stable; 0.05 to 0.15 is usual");
+    if (n.smagorinsky_constant > 1.0) say("numerics.smagorinsky_constant", "must be below 1; 0.1 to 0.17 is usual");
+    const bool amplitude = a.initial_velocity.norm() > 0.0 || n.reference_speed;
+    if ((a.initial == InitialField::taylor_green || a.initial == InitialField::shear_layer) && !amplitude)
+      say("air.initial", "needs an amplitude: give air.initial_velocity or numerics.reference_speed");
+    const bool moving = amplitude || std::any_of(a.boundaries.begin(), a.boundaries.end(),
+                                                 [](const Boundary& b) { return b.flow.index() != 0; });
+    if (a.model == AirModel::lbm && !moving)
+      say("numerics.reference_speed", "nothing in the case says how fast the air will be (no inlet): give a speed");
+    if (a.model != AirModel::lbm && !c_.carriers && !c_.fines)
+      say("air.model", "without moving air, carriers or fines there is nothing to simulate");
+    if (a.model == AirModel::none && c_.fines && !c_.carriers)
+      say("air.model", "fines travel in air: give model \"lbm\" or \"frozen\"");
+  }
+
+  void adhesion(const std::string& key, const Adhesion& a) {
+    if (a.surface_energy <= 0.0 || a.hamaker <= 0.0) return;
+    const double expected = a.hamaker / (24.0 * std::numbers::pi * a.cutoff_gap * a.cutoff_gap);
+    if (std::abs(expected / a.surface_energy - 1.0) > 0.05)
+      say(key + ".hamaker", "H = " + format_quantity(a.hamaker, unit::energy) +
+                                " and d0 = " + format_quantity(a.cutoff_gap, unit::length) +
+                                " give gamma = H/(24 pi d0^2) = " + format_quantity(expected, unit::surface_energy) +
+                                ", not " + format_quantity(a.surface_energy, unit::surface_energy) +
+                                " (5 % allowed); drop one");
+  }
+
+  void carriers() {
+    if (!c_.carriers) return;
+    const Carriers& c = *c_.carriers;
+    if (c.parcel > 0 && c.count % c.parcel != 0)
+      say("carriers.count",
+          std::to_string(c.count) + " is no multiple of carriers.parcel = " + std::to_string(c.parcel));
+    if (c.fill)
+      if (const auto* patch = std::get_if<std::string>(&c.fill->at)) known_patch("carriers.fill.at", *patch);
+    adhesion("carriers.adhesion", c.adhesion);
+    adhesion("carriers.walls.adhesion", c.wall_adhesion);
+    if (c.contact.max_overlap > 0.5) say("carriers.contact.max_overlap", "must be at most 0.5 of the radius");
+    if (c_.fines && !c_.fines->micromodels.empty() && c.fines_each == 0.0)
+      say("carriers.fines_each", "[fines] names micro-models, but the carriers carry no fines: give fines_each");
+    if (c_.fines && c_.fines->micromodels.empty() && c.fines_each > 0.0)
+      say("fines.micromodels", "the carriers carry fines, but nothing says how they come off: give 'micromodels'");
+  }
+
+  void fines() {
+    if (!c_.fines) return;
+    unique_names("fines.scalar", c_.fines->scalars);
+    std::vector<std::string> names;
+    for (const Scalar& s : c_.fines->scalars) names.push_back(s.name);
+    for (std::size_t i = 0; i < c_.fines->boundaries.size(); ++i) {
+      const ScalarBoundary& b = c_.fines->boundaries[i];
+      known_patch(indexed("fines.boundary", i) + ".patch", b.patch);
+      if (std::find(names.begin(), names.end(), b.scalar) == names.end())
+        say(indexed("fines.boundary", i) + ".scalar",
+            "there is no scalar '" + b.scalar + "'; there are " + join(names));
+    }
+  }
+
+  void outputs() {
+    const Output& o = c_.output;
+    unique_names("output.probe", o.probes);
+    unique_names("output.line", o.lines);
+    unique_names("output.plane", o.planes);
+    for (const std::string& patch : o.forces) known_patch("output.force", patch);
+    for (std::size_t i = 0; i < o.fields.size(); ++i)
+      if (o.fields[i].fines && !c_.fines)
+        say(indexed("output.fields", i) + ".what", "there are no fines: the case has no [fines]");
+    if (o.pressure_window && (*o.pressure_window)[0] >= c_.stop.time)
+      say("output.pressure_window", "begins after stop.time = " + format_quantity(c_.stop.time, unit::time));
+    if (c_.stop.time / o.statistics > 1e7)
+      say("output.statistics", "more than ten million rows until stop.time; give a longer interval");
+  }
+
+  const Case& c_;
+  Findings& findings_;
+  std::vector<std::string> patches_;
+  bool patches_known_ = false;
+};
+
+}  // namespace
+
+void check_consistency(const Case& c, Findings& findings) { Checks(c, findings).all(); }
+
+}  // namespace puffin::cases::format

@@ -1,0 +1,239 @@
+#include <cmath>
+#include <numbers>
+
+#include "cases/derived.hpp"
+#include "cases/format/schema.hpp"
+#include "cases/search_path.hpp"
+
+namespace puffin::cases::format {
+namespace {
+
+constexpr const char* as_carriers = "as between carriers";
+
+/// The default of a key, or, for the tables of [carriers.walls], the carriers' own value.
+template <class T>
+Fallback<T> or_as(const T* base, T value) {
+  return base ? derived(*base, as_carriers) : otherwise(value);
+}
+
+void describe_friction(Fields& io, Friction& friction, const Friction* base) {
+  const Shape held = std::holds_alternative<double>(friction) ? Shape::number : Shape::table;
+  Shape shape = io.shape("friction", held);
+  if (shape == Shape::absent && base) {
+    friction = *base;
+    shape = std::holds_alternative<double>(friction) ? Shape::number : Shape::table;
+  }
+  if (shape != Shape::table) {
+    if (io.reading() && !std::holds_alternative<double>(friction)) friction = 0.0;
+    const double* number = base ? std::get_if<double>(base) : nullptr;
+    io.number("friction", std::get<double>(friction), unit::number, Range::non_negative, or_as(number, 0.3));
+    return;
+  }
+  VelocityFriction standard;
+  const VelocityFriction* b = base ? std::get_if<VelocityFriction>(base) : nullptr;
+  if (io.reading() && !std::holds_alternative<VelocityFriction>(friction)) friction = standard;
+  auto& f = std::get<VelocityFriction>(friction);
+  const auto fallback = [&](double VelocityFriction::*member) -> Fallback<double> {
+    return b ? derived(b->*member, as_carriers) : Fallback<double>{};
+  };
+  io.section("friction", [&](Fields& t) {
+    std::string law = "velocity";
+    t.text("law", law, b ? derived<std::string>("velocity", as_carriers) : Fallback<std::string>{});
+    if (law != "velocity") t.problem("law", "the only law is \"velocity\"; a constant is written friction = 0.3");
+    t.number("stick", f.stick, unit::number, Range::non_negative, fallback(&VelocityFriction::stick));
+    t.number("slip", f.slip, unit::number, Range::non_negative, fallback(&VelocityFriction::slip));
+    t.number("slip_speed", f.slip_speed, unit::velocity, Range::positive, fallback(&VelocityFriction::slip_speed));
+    t.number("limit", f.limit, unit::number, Range::non_negative, fallback(&VelocityFriction::limit));
+    t.number("limit_speed", f.limit_speed, unit::velocity, Range::positive, fallback(&VelocityFriction::limit_speed));
+  });
+  if (!features.velocity_friction) io.problem("friction", "velocity-dependent friction is not part of this version");
+}
+
+void describe_contact(Fields& io, Contact& c, const Contact* base) {
+  io.choice("model", c.model, or_as(base ? &base->model : nullptr, ContactModel::linear));
+  if (!io.has("stiffness", true) && base && base->stiffness) {
+    c.stiffness = *base->stiffness;
+    io.number("stiffness", *c.stiffness, unit::stiffness, Range::positive, derived(*base->stiffness, as_carriers));
+  } else if (io.word("stiffness", {"auto"}, c.stiffness ? -1 : 0, 0) < 0) {
+    double value = c.stiffness.value_or(0.0);
+    io.number("stiffness", value, unit::stiffness, Range::positive, required);
+    c.stiffness = value;
+  }
+  io.number("max_overlap", c.max_overlap, unit::number, Range::positive,
+            or_as(base ? &base->max_overlap : nullptr, 0.02));
+  io.number("restitution", c.restitution, unit::number, Range::fraction,
+            or_as(base ? &base->restitution : nullptr, 0.6));
+  describe_friction(io, c.friction, base ? &base->friction : nullptr);
+  io.number("rolling_friction", c.rolling_friction, unit::number, Range::non_negative,
+            or_as(base ? &base->rolling_friction : nullptr, 0.0));
+  if (c.rolling_friction > 0.0 && !features.rolling_friction)
+    io.problem("rolling_friction", "rolling friction is not part of this version; give 0");
+  const bool hertz = c.model == ContactModel::hertz;
+  const auto elastic = [&](double Contact::*member) -> Fallback<double> {
+    return base && base->*member > 0.0 ? derived(base->*member, as_carriers) : Fallback<double>{};
+  };
+  if (hertz || io.has("youngs_modulus", c.youngs_modulus != 0.0))
+    io.number("youngs_modulus", c.youngs_modulus, unit::pressure, Range::positive, elastic(&Contact::youngs_modulus));
+  if (hertz || io.has("poisson", c.poisson != 0.0))
+    io.number("poisson", c.poisson, unit::number, Range::fraction, elastic(&Contact::poisson));
+  io.choice("on_wall", c.on_wall, or_as(base ? &base->on_wall : nullptr, OnWall::bounce));
+}
+
+void describe_adhesion(Fields& io, Adhesion& a, const Adhesion* base) {
+  io.choice("model", a.model, or_as(base ? &base->model : nullptr, AdhesionModel::none));
+  io.number("cutoff_gap", a.cutoff_gap, unit::length, Range::positive,
+            or_as(base ? &base->cutoff_gap : nullptr, 0.4e-9));
+  io.choice("parcel_scaling", a.parcel_scaling, or_as(base ? &base->parcel_scaling : nullptr, ParcelScaling::ddpm));
+  const bool needed = a.model != AdhesionModel::none;
+  const bool energy = io.has("surface_energy", needed || a.surface_energy != 0.0);
+  const bool hamaker = io.has("hamaker", needed || a.hamaker != 0.0);
+  const double factor = 24.0 * std::numbers::pi * a.cutoff_gap * a.cutoff_gap;  // H = factor gamma
+  const bool from_base = base && !energy && !hamaker && base->surface_energy > 0.0;
+  if (!energy && !hamaker && !from_base) {
+    if (needed && !(base && base->model == a.model))  // what the walls inherit is reported where it is missing
+      io.problem("surface_energy", "adhesion needs 'surface_energy' or 'hamaker'");
+    return;
+  }
+  Fallback<double> gamma, h;
+  if (from_base) gamma = derived(base->surface_energy, as_carriers);
+  if (hamaker && !energy) {
+    io.number("hamaker", a.hamaker, unit::energy, Range::non_negative, required);
+    gamma = derived(a.hamaker / factor, "H / (24 pi d0^2)");
+    io.number("surface_energy", a.surface_energy, unit::surface_energy, Range::non_negative, gamma);
+  } else {
+    io.number("surface_energy", a.surface_energy, unit::surface_energy, Range::non_negative, gamma);
+    h = derived(factor * a.surface_energy, "24 pi gamma d0^2");
+    if (from_base && base->cutoff_gap == a.cutoff_gap) h = derived(base->hamaker, as_carriers);
+    io.number("hamaker", a.hamaker, unit::energy, Range::non_negative, h);
+  }
+}
+
+void describe_fill(Fields& io, Fill& fill) {
+  io.choice<FillShape>("shape", fill.shape, required);
+  if (fill.shape == FillShape::file) {
+    io.file("file", fill.file, {});
+    return;
+  }
+  if (io.shape("at", std::holds_alternative<Vec3>(fill.at) ? Shape::array : Shape::text) == Shape::array) {
+    if (io.reading()) fill.at = Vec3(Vec3::Zero());
+    io.vector("at", std::get<Vec3>(fill.at), unit::length, required);
+  } else {
+    io.text("at", std::get<std::string>(fill.at), required);
+  }
+  io.number("gap", fill.gap, unit::number, Range::non_negative, otherwise(0.2));
+  io.number("jitter", fill.jitter, unit::number, Range::fraction, otherwise(0.01));
+  if (io.has("extent_of", fill.extent_of.has_value())) {
+    std::vector<double> extent;
+    if (fill.extent_of) extent = {double((*fill.extent_of)[0]), double((*fill.extent_of)[1])};
+    io.numbers("extent_of", extent, 2, unit::number, required);
+    if (extent.size() == 2) {
+      for (const double n : extent)
+        if (!(n >= 1.0 && n <= 1e9 && n == std::floor(n)))
+          return io.problem("extent_of", "give [count, parcel], two whole numbers of at least 1");
+      fill.extent_of = {static_cast<std::int64_t>(extent[0]), static_cast<std::int64_t>(extent[1])};
+    }
+  }
+}
+
+void describe_list(Fields& io, Carriers& c) {
+  const auto common = [](double value, const char* what) -> Fallback<double> {
+    return value > 0.0 ? derived(value, what) : Fallback<double>{};
+  };
+  io.list("list", c.list, [&](Fields& f, ListedCarrier& p) {
+    f.vector("position", p.position, unit::length, required);
+    f.vector("velocity", p.velocity, unit::velocity, otherwise(Vec3(0, 0, 0)));
+    f.vector("spin", p.spin, unit::angular_velocity, otherwise(Vec3(0, 0, 0)));
+    f.number("diameter", p.diameter, unit::length, Range::positive, common(c.diameter, "carriers.diameter"));
+    f.number("density", p.density, unit::density, Range::positive, common(c.density, "carriers.density"));
+  });
+}
+
+void describe_source(Fields& io, Carriers& c) {
+  const bool listed = io.has("list", !c.list.empty());
+  if (!listed || io.has("diameter", c.diameter > 0.0))
+    io.number("diameter", c.diameter, unit::length, Range::positive, required);
+  if (!listed || io.has("density", c.density > 0.0))
+    io.number("density", c.density, unit::density, Range::positive, required);
+  std::int64_t parcel = c.parcel;
+  io.integer("parcel", parcel, Range::positive, otherwise<std::int64_t>(1));
+  if (parcel > 1'000'000) io.problem("parcel", "at most a million carriers a parcel"), parcel = 1;
+  c.parcel = static_cast<int>(parcel);
+  const bool fill = io.has("fill", c.fill.has_value());
+  if (listed && fill) io.problem("fill", "give either 'fill' or 'list', not both");
+  if (!listed && !fill) io.problem("fill", "say where the carriers start: 'fill' or 'list'");
+  if (fill) {
+    if (io.reading()) c.fill.emplace();
+    io.section("fill", [&](Fields& f) { describe_fill(f, *c.fill); });
+  }
+  if (listed) describe_list(io, c);
+  const std::int64_t in_list = static_cast<std::int64_t>(c.list.size()) * c.parcel;
+  io.integer("count", c.count, Range::positive,
+             listed ? derived(in_list, "the list's length times parcel") : Fallback<std::int64_t>{});
+  if (listed && c.count != in_list) io.problem("count", "the list holds " + std::to_string(in_list) + " carriers");
+}
+
+}  // namespace
+
+void describe(Fields& io, Carriers& c) {
+  describe_source(io, c);
+  io.number("fines_each", c.fines_each, unit::number, Range::non_negative, otherwise(0.0));
+  io.number("fine_mass_ratio", c.fine_mass_ratio, unit::number, Range::positive, otherwise(2e-5));
+  io.vector("gravity", c.gravity, unit::acceleration, otherwise(Vec3(0, 0, -9.81)));
+  io.choice("drag", c.drag, otherwise(Drag::schiller_naumann));
+  io.choice("volume_fraction", c.volume_fraction, otherwise(VolumeFraction::drag));
+  io.choice("lift", c.lift, otherwise(Lift::none));
+  io.flag("rotation", c.rotation, otherwise(true));
+  io.flag("two_way", c.two_way, otherwise(true));
+  io.number("start", c.start, unit::time, Range::non_negative, otherwise(0.0));
+  io.choice("outside", c.outside, otherwise(Outside::remove));
+  io.section("contact", [&](Fields& f) { describe_contact(f, c.contact, nullptr); });
+  io.section("adhesion", [&](Fields& f) { describe_adhesion(f, c.adhesion, nullptr); });
+  io.section("walls", [&](Fields& walls) {
+    walls.section("contact", [&](Fields& f) { describe_contact(f, c.wall_contact, &c.contact); });
+    walls.section("adhesion", [&](Fields& f) { describe_adhesion(f, c.wall_adhesion, &c.adhesion); });
+  });
+}
+
+void describe(Fields& io, Fines& fines, const std::optional<Carriers>& carriers) {
+  if (io.has("micromodels", !fines.micromodels.empty()))
+    io.file("micromodels", fines.micromodels, micromodel_directories());
+  io.choice("wall_deposition", fines.wall_deposition, otherwise(WallDeposition::none));
+  const bool drift = fines.wall_deposition == WallDeposition::inertial;
+  if (drift || carriers || io.has("density", fines.density > 0.0))
+    io.number(
+        "density", fines.density, unit::density, Range::positive,
+        carriers && carriers->density > 0.0 ? derived(carriers->density, "carriers.density") : Fallback<double>{});
+  if (drift || carriers || io.has("diameter", fines.diameter > 0.0)) {
+    Fallback<double> diameter;
+    if (carriers && carriers->diameter > 0.0 && fines.density > 0.0)
+      diameter =
+          derived(fines_diameter(*carriers, fines.density), "sphere of fine_mass_ratio times the carrier's mass");
+    io.number("diameter", fines.diameter, unit::length, Range::positive, diameter);
+  }
+  io.list("scalar", fines.scalars, [](Fields& f, Scalar& s) {
+    f.text("name", s.name, required);
+    f.number("diffusion", s.diffusion, unit::diffusion, Range::non_negative, required);
+    f.choice("scheme", s.scheme, otherwise(ScalarScheme::mc));
+    f.choice("wall", s.wall, otherwise(ScalarWall::reflect));
+    if (!f.has("initial", s.initial.has_value())) return;
+    if (f.reading()) s.initial.emplace();
+    f.section("initial", [&](Fields& i) {
+      std::string shape = "gaussian";
+      i.text("shape", shape, required);
+      if (shape != "gaussian") i.problem("shape", "the only shape is \"gaussian\"");
+      i.vector("center", s.initial->center, unit::length, required);
+      i.number("sigma", s.initial->sigma, unit::length, Range::positive, required);
+      i.number("amount", s.initial->amount, unit::number, Range::positive, required);
+    });
+  });
+  if (fines.scalars.empty()) io.problem("scalar", "fines need at least one [[fines.scalar]] to travel in");
+  io.list("boundary", fines.boundaries, [](Fields& f, ScalarBoundary& b) {
+    f.text("patch", b.patch, required);
+    f.text("scalar", b.scalar, required);
+    f.number("value", b.value, unit::number_density, Range::non_negative, required);
+  });
+  if (!fines.boundaries.empty() && !features.fixed_values)
+    io.problem("boundary", "fixed values of a scalar on a patch are not part of this version");
+}
+
+}  // namespace puffin::cases::format

@@ -1,0 +1,110 @@
+#include "cases/format/toml_edit.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+
+#include "cases/units.hpp"
+
+namespace puffin::cases::format {
+namespace {
+
+/// "a.b[0].c" -> a, b, 0, c.
+std::vector<std::string> steps_of(std::string_view key) {
+  std::vector<std::string> steps(1);
+  for (const char c : key) {
+    if (c == '.' || c == '[')
+      steps.emplace_back();
+    else if (c != ']')
+      steps.back() += c;
+  }
+  for (const std::string& step : steps)
+    if (step.empty()) throw std::invalid_argument("'" + std::string(key) + "' is no dotted key");
+  return steps;
+}
+
+/// The value as TOML, or as a text if it is none. `source` is what messages call it.
+toml::table parse_value(const std::string& value, const std::string& source) {
+  try {
+    toml::table t = toml::parse("v = " + value + "\n", source);
+    if (t.size() == 1) return t;
+  } catch (const toml::parse_error&) {  // no TOML value: the shell ate the quotes, and the text itself is meant
+  }
+  toml::table t = toml::parse("v = 0\n", source);
+  toml::table holder;
+  const toml::source_region where = t.get("v")->source();
+  holder.insert_or_assign(toml::key("v", where), value);
+  return holder;
+}
+
+toml::node* enter(toml::node& node, const std::string& step, const Override& o, const toml::source_region& where) {
+  if (toml::table* table = node.as_table()) {
+    if (!table->contains(step)) table->insert_or_assign(toml::key(step, where), toml::table{});
+    return table->get(step);
+  }
+  if (toml::array* array = node.as_array()) {
+    std::size_t i = 0;
+    const auto [end, error] = std::from_chars(step.data(), step.data() + step.size(), i);
+    if (error != std::errc() || end != step.data() + step.size() || i >= array->size())
+      throw std::invalid_argument("'" + step + "' in '" + o.key + "' is no index of a list of " +
+                                  std::to_string(array->size()));
+    return array->get(i);
+  }
+  throw std::invalid_argument("'" + o.key + "': there is a value, not a table, before '" + step + "'");
+}
+
+std::optional<double> quantity(const toml::node_view<toml::node>& node, const Unit& u) try {
+  if (const auto* text = node.as_string()) return parse_quantity(text->get(), u);
+  return node.value<double>();
+} catch (const UnitError&) {
+  return std::nullopt;
+}
+
+/// Rounded to three significant digits.
+double rounded(double value) {
+  const double scale = std::pow(10.0, 2.0 - std::floor(std::log10(value)));
+  return std::round(value * scale) / scale;
+}
+
+}  // namespace
+
+void apply_override(toml::table& root, const Override& o) {
+  const std::vector<std::string> steps = steps_of(o.key);
+  toml::table holder = parse_value(o.value, "--set " + o.key);
+  toml::node& value = *holder.get("v");
+  const toml::source_region where = holder.begin()->first.source();
+  toml::node* parent = &root;
+  for (std::size_t i = 0; i + 1 < steps.size(); ++i) parent = enter(*parent, steps[i], o, where);
+  if (toml::table* table = parent->as_table()) {
+    table->erase(steps.back());
+    value.visit([&](auto& v) { table->insert_or_assign(toml::key(steps.back(), where), std::move(v)); });
+  } else {
+    toml::node* old = enter(*parent, steps.back(), o, where);
+    toml::array& array = *parent->as_array();
+    const auto at = std::find_if(array.begin(), array.end(), [&](toml::node& n) { return &n == old; });
+    value.visit([&](auto& v) { array.replace(at, std::move(v)); });
+  }
+}
+
+void apply_preset(toml::table& root, const Preset& preset) {
+  const std::string source = "--preset " + std::string(preset.name);
+  const auto replace = [&](const char* table, const char* key, double value) {
+    toml::table holder = parse_value(shortest(value), source);
+    const toml::source_region where = holder.begin()->first.source();
+    toml::table& t = *root.get(table)->as_table();
+    t.erase(key);
+    holder.get("v")->visit([&](auto& v) { t.insert_or_assign(toml::key(key, where), std::move(v)); });
+  };
+  const std::optional<double> dx = quantity(root["numerics"]["dx"], unit::length);
+  const std::optional<double> cells = quantity(root["numerics"]["cells"], unit::number);
+  const std::optional<double> stop = quantity(root["stop"]["time"], unit::time);
+  if (preset.coarsening != 1.0) {
+    if (dx && *dx > 0.0 && std::isfinite(*dx)) replace("numerics", "dx", rounded(*dx * preset.coarsening));
+    if (cells && *cells > 0.0 && *cells < 9e15)
+      replace("numerics", "cells", std::max(1.0, std::round(*cells / std::pow(preset.coarsening, 3))));
+  }
+  if (stop && *stop > preset.longest_time) replace("stop", "time", preset.longest_time);
+}
+
+}  // namespace puffin::cases::format

@@ -1,0 +1,36 @@
+#include "cases/format/toml_file.hpp"
+
+#include <fstream>
+#include <iterator>
+#include <system_error>
+
+#include "cases/case_error.hpp"
+
+namespace puffin::cases::format {
+namespace {
+
+constexpr std::uintmax_t longest_file = std::uintmax_t{64} << 20;  // [bytes]
+
+}  // namespace
+
+std::string read_text(const std::filesystem::path& file) {
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(file, error);
+  if (!error && std::filesystem::is_directory(status)) error = std::make_error_code(std::errc::is_a_directory);
+  if (!error && std::filesystem::is_regular_file(status) && std::filesystem::file_size(file) > longest_file)
+    throw CaseError({{file.string(), 0, 0, "", "this is no case file: longer than 64 MB"}});
+  std::ifstream in(file, std::ios::binary);
+  if (!error && !in) error = std::make_error_code(std::errc::permission_denied);
+  if (error) throw std::system_error(error, "cannot read " + file.string());
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+toml::table parse_toml(std::string_view text, const std::string& file) try {
+  return toml::parse(text, std::string_view(file));
+} catch (const toml::parse_error& e) {
+  const toml::source_position at = e.source().begin;
+  throw CaseError({{file, static_cast<int>(at.line), static_cast<int>(at.column), "",
+                    "this is not TOML: " + std::string(e.description())}});
+}
+
+}  // namespace puffin::cases::format

@@ -1,0 +1,16 @@
+#pragma once
+// Micro-model file (TOML) -> the laws of the fines. The keys of each law: micromodels/README.md.
+
+#include <filesystem>
+
+#include "cases/case_error.hpp"
+#include "micromodels/fines_models.hpp"
+
+namespace puffin::cases {
+
+/// An absent table is a mechanism that does not act; every value may carry its unit. Tables of numbers (law = "table")
+/// are CSV files beside this one with a header line: speed, fraction (or rate), and, if wanted, angle [degrees].
+/// Throws CaseError with every problem of the file, std::system_error if it cannot be read.
+micromodels::FinesModels read_micromodels(const std::filesystem::path& file);
+
+}  // namespace puffin::cases

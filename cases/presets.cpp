@@ -1,0 +1,25 @@
+#include "cases/presets.hpp"
+
+#include <array>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+namespace puffin::cases {
+namespace {
+
+constexpr double unlimited = std::numeric_limits<double>::infinity();
+constexpr std::array all_presets{Preset{"quick", 0.40 / 0.234, 0.150}, Preset{"fast", 0.30 / 0.234, unlimited},
+                                 Preset{"default", 1.0, unlimited}, Preset{"accurate", 0.16 / 0.234, unlimited}};
+
+}  // namespace
+
+std::span<const Preset> presets() { return all_presets; }
+
+const Preset& preset_of(std::string_view name) {
+  for (const Preset& p : all_presets)
+    if (p.name == name) return p;
+  throw std::invalid_argument("unknown preset '" + std::string(name) + "'; give quick, fast, default or accurate");
+}
+
+}  // namespace puffin::cases

@@ -1,0 +1,13 @@
+#pragma once
+// Where the files that come with Puffin are.
+
+#include <span>
+#include <string>
+
+namespace puffin::cases {
+
+/// Folders searched for micro-model files after the case file's own: share/puffin/micromodels of the installation that
+/// the program runs from, then cases/micromodels of the source tree it was built from.
+std::span<const std::string> micromodel_directories();
+
+}  // namespace puffin::cases
