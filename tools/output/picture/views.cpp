@@ -32,6 +32,8 @@ Box stage(int width, int height, double right_column) {
   return {50, 130, width - 100 - right_column, height - 130 - 90.0};
 }
 
+Box colour_bar_place(int width, int height) { return {width - 120.0, 150, 28, height - 270.0}; }
+
 void add_glass(const WallFrame& walls, float wall_opacity, Scene& scene) {
   for (std::size_t t = 0; t < walls.triangles.size(); ++t) {
     const auto& [a, b, c] = walls.triangles[t];
@@ -110,7 +112,7 @@ Canvas carriers_picture(const WallFrame& walls, const CarrierFrame& carriers, co
   paint(scene, camera, view, canvas);
   draw_title(canvas, "Carriers",
              subtitle(caption, std::to_string(carriers.position.size()) + " tracked bodies in the device"));
-  draw_colour_bar(canvas, {width - 120.0, 180, 28, height - 360.0}, scale, "speed of the carriers [m/s]");
+  draw_colour_bar(canvas, colour_bar_place(width, height), scale, "speed of the carriers [m/s]");
   draw_scale_bar(canvas, 60, height - 45, camera.scale);
   return canvas;
 }
@@ -170,7 +172,7 @@ Canvas slice_picture(const FieldFrame& field, const WallFrame& walls, int axis, 
   canvas.stroke(outline, ink, 2.0);
   const std::string plane = std::string(1, "xyz"[axis]) + formatted(" = %.3g mm", place * 1e3);
   draw_title(canvas, "Speed of the air at " + plane, subtitle(caption));
-  draw_colour_bar(canvas, {width - 120.0, 180, 28, height - 360.0}, scale, "speed of the air [m/s]");
+  draw_colour_bar(canvas, colour_bar_place(width, height), scale, "speed of the air [m/s]");
   draw_scale_bar(canvas, 60, height - 45, zoom);
   return canvas;
 }
@@ -234,7 +236,7 @@ Canvas wall_map_picture(const WallFrame& walls, const std::string& quantity, con
                            : energy ? "energy per area [J/m^2]"
                                     : "fines per area [1/m^2]";
   draw_title(canvas, title, subtitle(caption, "grey: none"));
-  draw_colour_bar(canvas, {width - 120.0, 180, 28, height - 360.0}, scale, unit);
+  draw_colour_bar(canvas, colour_bar_place(width, height), scale, unit);
   draw_scale_bar(canvas, 60, height - 45, above.scale);
   return canvas;
 }

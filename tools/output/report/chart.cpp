@@ -11,7 +11,7 @@
 namespace puffin::output {
 namespace {
 
-constexpr double width = 760, height = 330, left = 78, right = 22, top = 40, bottom = 54;
+constexpr double full_width = 760, height = 330, left = 78, right = 22, top = 46, bottom = 54;
 constexpr char text_colour[] = "#21262d", soft_colour[] = "#5f6873", grid_colour[] = "#e3e6ea";
 
 std::string hex(const Colour& c) {
@@ -92,6 +92,7 @@ std::string legend(const std::vector<std::string>& names, double x, double y) {
 }  // namespace
 
 std::string line_chart(const LineChart& chart) {
+  const double width = chart.width;
   double x0 = std::numeric_limits<double>::infinity(), x1 = -x0, y0 = 0.0, y1 = chart.y_at_least;
   for (const auto& curve : chart.curves) {
     for (std::size_t i = 0; i < std::min(curve.x.size(), curve.y.size()); ++i) {
@@ -121,7 +122,7 @@ std::string line_chart(const LineChart& chart) {
     if (marker.x < x.low || marker.x > x.high) continue;
     svg += line_at(px(marker.x), top, px(marker.x), height - bottom, soft_colour, " stroke-dasharray=\"4 4\"");
     const bool near_end = px(marker.x) > width - 150;
-    svg += text_at(px(marker.x) + (near_end ? -5 : 5), top + 12, escaped(marker.text), near_end ? "end" : "start",
+    svg += text_at(px(marker.x) + (near_end ? -5 : 5), top - 5, escaped(marker.text), near_end ? "end" : "start",
                    soft_colour, " font-size=\"12\"");
   }
   std::vector<std::string> names;
@@ -144,7 +145,7 @@ std::string line_chart(const LineChart& chart) {
 }
 
 std::string bar_chart(const BarChart& chart) {
-  constexpr double bar = 18, gap = 16, label = 190, end = 90;
+  constexpr double width = full_width, bar = 18, gap = 16, label = 190, end = 90;
   std::vector<std::string> series;
   double largest = 0.0, rows = 0.0;
   for (const auto& group : chart.groups) {

@@ -22,6 +22,7 @@ struct LineChart {
   std::vector<Curve> curves;
   std::vector<Marker> markers;
   double y_at_least = 0.0;  // the y axis reaches this far
+  double width = 760.0;     // [pixel]; a narrow chart has larger letters on the page
 };
 /// Long curves are thinned to about 600 points, extremes kept. The y axis includes 0.
 std::string line_chart(const LineChart& chart);

@@ -7,6 +7,7 @@
 
 #include "tools/output/csv_file.hpp"
 #include "tools/output/output_error.hpp"
+#include "tools/output/picture/decorations.hpp"
 #include "tools/output/picture/views.hpp"
 #include "tools/output/render.hpp"
 #include "tools/output/report.hpp"
@@ -136,7 +137,7 @@ std::string carriers(const Run& run) {
   }
   const std::vector<double> times = flight_times(run);
   RenderOptions options;
-  options.width = 1280, options.height = 800, options.value_max = 0.0;
+  options.width = 960, options.height = 640, options.value_max = 0.0;
   for (const auto& entry : read_pvd(run.folder / "vtk/carriers.pvd")) {
     if (std::find(times.begin(), times.end(), entry.time) == times.end()) continue;
     options.value_max = std::max(*options.value_max, speed_scale(read_carrier_frame(run.folder / "vtk" / entry.file)));
@@ -162,7 +163,8 @@ std::string emission(const Run& run) {
   if (!run.summary.carriers) return out + left_out("this run has no carriers.");
   if (run.history.rows.empty()) return out + left_out("history.csv holds no rows.");
   const std::vector<double> time = run.column("time", 1e3);
-  LineChart count{"time [ms]", "carriers", {}, {}, 0.0};
+  LineChart count;
+  count.x_label = "time [ms]", count.y_label = "carriers";
   count.curves = {{"emitted", time, run.column("carriers_emitted")},
                   {"in the device", time, run.column("carriers_in")}};
   const CarrierSummary& c = *run.summary.carriers;
@@ -170,7 +172,8 @@ std::string emission(const Run& run) {
   if (c.first_emitted) count.markers.push_back({*c.first_emitted * 1e3, "first emitted"});
   out += figure_svg(line_chart(count), "Single carriers (history.csv).");
   if (run.summary.fines.empty()) return out + left_out("the fines: this run has none.");
-  LineChart fines{"time [ms]", "fraction of the fines loaded", {}, {}, 1.0};
+  LineChart fines;
+  fines.x_label = "time [ms]", fines.y_label = "fraction of the fines loaded", fines.y_at_least = 1.0;
   for (const char* name : {"FFE", "FFW", "FFCR", "FFCE", "in_air"}) {
     fines.curves.push_back({name, time, run.column(name)});
   }
@@ -185,9 +188,9 @@ std::string flow(const Run& run) {
   if (run.history.rows.empty()) return out + left_out("history.csv holds no rows.");
   const std::vector<double> time = run.column("time", 1e3);
   out += "<div class=pair>\n";
-  LineChart rate{"time [ms]", "flow rate [L/min]", {{"flow rate", time, run.column("flow_rate", 6e4)}}, {}, 0.0};
+  LineChart rate{"time [ms]", "flow rate [L/min]", {{"flow rate", time, run.column("flow_rate", 6e4)}}, {}, 0.0, 520.0};
   out += figure_svg(line_chart(rate), "Flow rate through the device.");
-  LineChart drop{"time [ms]", "pressure drop [Pa]", {}, {}, 0.0};
+  LineChart drop{"time [ms]", "pressure drop [Pa]", {}, {}, 0.0, 520.0};
   drop.curves = {{"static", time, run.column("static_drop")},
                  {"total to static", time, run.column("total_to_static_drop")}};
   out += figure_svg(line_chart(drop), "Pressure drops from inlet to outlet.") + "</div>\n";
@@ -254,8 +257,8 @@ std::string reference(const Run& run) {
   if (run.summary.reference.empty()) return out + left_out("the case has no [reference] table.");
   Rows rows;
   for (const auto& row : run.summary.reference) {
-    rows.push_back({"<code>" + escaped(row.name) + "</code>", significant(row.given, 4),
-                    row.low && row.high ? significant(*row.low, 3) + " to " + significant(*row.high, 3) : "",
+    rows.push_back({"<code>" + escaped(row.name) + "</code>", short_number(row.given),
+                    row.low && row.high ? short_number(*row.low) + " to " + short_number(*row.high) : "",
                     significant(row.ours, 4), significant(row.difference, 3),
                     row.difference && row.given != 0 ? percent(*row.difference / std::abs(row.given)) : ""});
   }
@@ -309,8 +312,7 @@ std::string work(const Run& run) {
   for (const auto& skip : run.summary.skipped) {
     rows.push_back({escaped(skip.name), grouped(skip.times), duration(skip.seconds_saved)});
   }
-  return out + "<h3>What was skipped because it could not change the result</h3>\n" +
-         table({"", "times", "saved, estimated"}, rows);
+  return out + "<h3>What was skipped</h3>\n" + table({"", "times", "saved, estimated"}, rows);
 }
 
 std::string numerics(const Run& run) {

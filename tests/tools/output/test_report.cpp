@@ -1,0 +1,141 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <regex>
+
+#include "tests/tools/output/scratch.hpp"
+#include "tests/tools/output/synthetic_run.hpp"
+#include "tools/output/output_error.hpp"
+#include "tools/output/report.hpp"
+#include "tools/output/report/chart.hpp"
+#include "tools/output/report/html.hpp"
+
+namespace puffin::output {
+namespace {
+
+/// The whole run's report, made once: it paints eight pictures.
+const std::string& whole_report() {
+  static const std::string text = [] {
+    const Scratch folder;
+    write_synthetic_run(folder / "run");
+    return make_report(folder / "run");
+  }();
+  return text;
+}
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+std::ptrdiff_t count(const std::string& text, const std::string& part) {
+  std::ptrdiff_t n = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;
+  return n;
+}
+
+TEST(Report, LoadsNothing) {
+  const std::string& text = whole_report();
+  EXPECT_FALSE(has(text, "http://"));
+  EXPECT_FALSE(has(text, "https://"));
+  EXPECT_FALSE(has(text, "<script"));
+  EXPECT_FALSE(has(text, "<link"));
+  EXPECT_FALSE(has(text, "@import"));
+  EXPECT_EQ(count(text, "src=\""), count(text, "src=\"data:image/png;base64,"));
+  EXPECT_EQ(count(text, "<img "), 8);  // device, four moments, air, two wall maps
+  EXPECT_EQ(count(text, "<svg "), 6);  // two emissions, outcome, flow, pressure, phases
+}
+
+TEST(Report, HoldsEverySectionAndNothingIsLeftOut) {
+  for (const char* title :
+       {"The device", "Carriers in flight", "Emission over time", "Where the fines ended", "Beside the given values",
+        "Flow and pressure", "The air", "Collisions", "What landed on the walls", "Where the time went", "Numerics",
+        "Assumptions", "To run this again"}) {
+    EXPECT_TRUE(has(whole_report(), "<h2>" + std::string(title) + "</h2>")) << title;
+  }
+  EXPECT_FALSE(has(whole_report(), "Left out"));
+}
+
+TEST(Report, EveryTagThatIsOpenedIsClosed) {
+  const std::string& text = whole_report();
+  for (const std::string tag : {"table", "tr", "td", "th", "figure", "div", "svg", "ul", "li", "p", "h2", "text"}) {
+    EXPECT_EQ(count(text, "<" + tag + ">") + count(text, "<" + tag + " "), count(text, "</" + tag + ">")) << tag;
+  }
+}
+
+TEST(Report, AFlowOnlyRunSaysWhatIsLeftOutAndWhy) {
+  const Scratch folder;
+  write_synthetic_run(folder / "run", RunKind::flow_only);
+  const std::string text = make_report(folder / "run");
+  EXPECT_TRUE(has(text, "Left out: this run has no carriers."));
+  EXPECT_TRUE(has(text, "total-to-static drop [Pa]"));
+  EXPECT_EQ(count(text, "<img "), 2);  // device and air
+}
+
+TEST(Report, ADivergedRunSaysWhere) {
+  const Scratch folder;
+  write_synthetic_run(folder / "run", RunKind::diverged);
+  const std::string text = make_report(folder / "run");
+  EXPECT_TRUE(has(text, "This run diverged"));
+  EXPECT_TRUE(has(text, "cell (88, 14, 9)"));
+}
+
+TEST(Report, ABareSummaryIsEnough) {
+  const Scratch folder;
+  Summary summary;
+  summary.name = "a <b> & \"c\"";
+  summary.state = "stopped";
+  write_summary(folder / "summary.json", summary);
+  const std::string text = make_report(folder.path());
+  EXPECT_TRUE(has(text, "a &lt;b&gt; &amp; &quot;c&quot;"));
+  EXPECT_FALSE(has(text, "<b> &"));
+  EXPECT_EQ(count(text, "<img "), 0);
+}
+
+TEST(Report, AFolderWithoutASummaryIsAnOutputError) {
+  const Scratch folder;
+  EXPECT_THROW(make_report(folder.path()), OutputError);
+}
+
+TEST(Html, Base64OfTheStandardsExamples) {
+  // RFC 4648, section 10.
+  EXPECT_EQ(base64(""), "");
+  EXPECT_EQ(base64("f"), "Zg==");
+  EXPECT_EQ(base64("fo"), "Zm8=");
+  EXPECT_EQ(base64("foo"), "Zm9v");
+  EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
+  EXPECT_EQ(base64("\xff\xfe"), "//4=");
+}
+
+TEST(Html, NumbersKeepTheirSignificantDigits) {
+  EXPECT_EQ(significant(2612.4, 3), "2612");  // whole numbers below a million stay plain
+  EXPECT_EQ(significant(0.064, 3), "0.0640");
+  EXPECT_EQ(significant(9.996, 3), "10.0");
+  EXPECT_EQ(significant(5.5e-10, 2), "5.5&nbsp;&times;&nbsp;10<sup>-10</sup>");
+  EXPECT_EQ(significant(-1.0, 3), "-1.00");
+  EXPECT_EQ(grouped(213576), "213&#8239;576");
+  EXPECT_EQ(grouped(-1000), "&minus;1&#8239;000");
+  EXPECT_EQ(grouped(12), "12");
+}
+
+TEST(Chart, APeakSurvivesTheThinning) {
+  LineChart chart;
+  Curve curve{"x", {}, {}};
+  for (int i = 0; i < 100000; ++i) curve.x.push_back(i), curve.y.push_back(i == 54321 ? 8.0 : 1.0);
+  chart.curves = {curve};
+  const std::string svg = line_chart(chart);
+  EXPECT_LT(svg.size(), 30000u);
+  const std::size_t points = svg.find("points=\"");
+  // The axis ends at 8 exactly, so the peak touches the upper edge of the plot.
+  const std::regex edge(",46\\.0 ");
+  EXPECT_TRUE(std::regex_search(svg.substr(points), edge));
+}
+
+TEST(Chart, NoPointsOrStrangeOnesStillGiveAChart) {
+  LineChart chart;
+  chart.curves = {{"none", {}, {}}, {"nan", {0, 1}, {std::nan(""), std::nan("")}}};
+  EXPECT_TRUE(has(line_chart(chart), "</svg>"));
+  EXPECT_FALSE(has(line_chart(chart), "nan,"));
+  EXPECT_TRUE(has(bar_chart({}), "</svg>"));
+}
+
+}  // namespace
+}  // namespace puffin::output
