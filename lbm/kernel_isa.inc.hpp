@@ -32,30 +32,32 @@ template <class L, bool Forced, class P>
 inline CellMoments<P> collide(P (&g)[19], const P (&force_in)[3], const CollisionConstants& c, const P& les, int lanes,
                               std::int64_t& limited) {
   using T = typename P::value_type;
-  auto h = detail::hydrodynamics<Forced>(g, force_in);
-  const CellMoments<P> found{h.drho, h.u[0], h.u[1], h.u[2]};
-  P force[3] = {force_in[0], force_in[1], force_in[2]};
-  if constexpr (L::regularised) {
+  // In the step that changes dt, `force_in` is in the new units and the populations in the old: F = F'/r^2.
+  const P old_force = P(T(1.0 / (c.rescale * c.rescale)));
+  const P force_before[3] = {force_in[0] * old_force, force_in[1] * old_force, force_in[2] * old_force};
+  auto h = detail::hydrodynamics<Forced>(g, force_before);
+  CellMoments<P> found{h.drho, h.u[0], h.u[1], h.u[2]};
+  if (L::regularised || c.rescale != 1.0) {
     const P trace = (h.pi[0] + h.pi[1] + h.pi[2]) * P(T(1.0 / 3.0));
     for (int a = 0; a < 3; ++a) h.pi[a] = h.pi[a] - trace;
     P tau = detail::smagorinsky_tau(h.pi, P(T(1)) / h.rho, P(T(c.tau0)), les);
     if (c.rescale != 1.0) {
-      // New time step dt' = r dt: rho' = 1 + r^2 (rho-1), u' = r u, F' = r^2 F, Pi' = r (tau'/tau) (rho'/rho) Pi.
+      // New time step dt' = r dt: rho' = 1 + r^2 (rho-1), u' = r u, Pi' = r (tau'/tau) (rho'/rho) Pi.
       const P r(T(c.rescale)), r2(T(c.rescale * c.rescale));
       const P tau_new = P(T(c.tau0_rescaled)) + r * (tau - P(T(c.tau0)));
       const P drho_new = r2 * h.drho;
       const P factor = r * (tau_new / tau) * ((P(T(1)) + drho_new) / h.rho);
       for (auto& pi : h.pi) pi = pi * factor;
       for (auto& u : h.u) u = u * r;
-      for (auto& f : force) f = f * r2;
       h.drho = drho_new;
       h.rho = P(T(1)) + drho_new;
       tau = tau_new;
+      found = {h.drho, h.u[0], h.u[1], h.u[2]};
     }
     const P keep = P(T(1)) - P(T(1)) / tau;
     P p[6];
     for (int n = 0; n < 6; ++n) p[n] = keep * h.pi[n];
-    L::template assemble<Forced>(h.drho, h.rho, h.u, p, force, g);
+    Rr3::assemble<Forced>(h.drho, h.rho, h.u, p, force_in, g);
     // Positivity: f_i >= w_i/10. The smallest g_i/w_i over axes and diagonals decides; the stress is scaled down if not.
     P low_axis = minimum(minimum(minimum(g[1], g[2]), minimum(g[3], g[4])), minimum(g[5], g[6]));
     P low_diagonal = minimum(minimum(minimum(minimum(g[7], g[8]), minimum(g[9], g[10])),
@@ -66,7 +68,7 @@ inline CellMoments<P> collide(P (&g)[19], const P (&force_in)[3], const Collisio
     if (stdx::any_of(negative)) [[unlikely]] {
       P equilibrium[19];
       const P zero[6] = {P(T(0)), P(T(0)), P(T(0)), P(T(0)), P(T(0)), P(T(0))};
-      L::template assemble<Forced>(h.drho, h.rho, h.u, zero, force, equilibrium);
+      Rr3::assemble<Forced>(h.drho, h.rho, h.u, zero, force_in, equilibrium);
       P scale(T(1));
       for (int i = 0; i < 19; ++i) {
         const P floor(T(-0.9 * d3q19::weight[i]));
@@ -77,7 +79,7 @@ inline CellMoments<P> collide(P (&g)[19], const P (&force_in)[3], const Collisio
         scale = minimum(scale, s);
       }
       for (auto& n : p) n = n * scale;
-      L::template assemble<Forced>(h.drho, h.rho, h.u, p, force, g);
+      Rr3::assemble<Forced>(h.drho, h.rho, h.u, p, force_in, g);
       for (int l = 0; l < lanes; ++l) limited += negative[l] ? 1 : 0;
     }
   } else {
@@ -91,8 +93,8 @@ inline CellMoments<P> collide(P (&g)[19], const P (&force_in)[3], const Collisio
       const P eq = w * (h.drho + h.rho * (P(T(3)) * cu + P(T(4.5)) * cu * cu - P(T(1.5)) * u2));
       g[i] = g[i] + omega * (eq - g[i]);
       if constexpr (Forced) {
-        const P cf = cx * force[0] + cy * force[1] + cz * force[2];
-        const P uf = h.u[0] * force[0] + h.u[1] * force[1] + h.u[2] * force[2];
+        const P cf = cx * force_in[0] + cy * force_in[1] + cz * force_in[2];
+        const P uf = h.u[0] * force_in[0] + h.u[1] * force_in[1] + h.u[2] * force_in[2];
         g[i] = g[i] + (P(T(1)) - P(T(0.5)) * omega) * w * (P(T(3)) * (cf - uf) + P(T(9)) * cu * cf);
       }
     }

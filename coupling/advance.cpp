@@ -1,0 +1,288 @@
+// One exchange interval on one page. The order, and why it is this:
+//   air steps     with the carriers' reaction of the interval before (explicit, as the air is 1,000 times faster)
+//   interpolation of the air at the carriers' present places, through the same stencils that carried their reaction
+//   carriers      over the same interval, drag semi-implicit; what drag gave them is what the air will lose next
+//   fines         taken off by the contacts and the slip of this interval
+//   transport     of the fines by the lattice's own fluxes, in steps of its own
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+
+#include "coupling/drag_limit.hpp"
+#include "coupling/state.hpp"
+#include "coupling/volume_fraction.hpp"
+#include "dem/advance.hpp"
+
+namespace puffin::coupling {
+
+namespace {
+
+/// Adds the seconds of its life to a counter.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& seconds) : seconds_(seconds), start_(std::chrono::steady_clock::now()) {}
+  ~Stopwatch() { seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  double& seconds_;
+  std::chrono::steady_clock::time_point start_;
+};
+
+template <class... Args>
+[[noreturn]] void diverge(const char* format, Args... args) {
+  char text[512];
+  std::snprintf(text, sizeof text, format, args...);
+  throw Diverged(text);
+}
+
+bool all_asleep(const dem::Carriers& carriers) {
+  return std::none_of(carriers.rest.begin(), carriers.rest.end(), [](dem::Rest r) { return r == dem::Rest::awake; });
+}
+
+/// Names the first cell whose density or speed left the limits of the kernel.
+[[noreturn]] void report_bad_cell(const lbm::Air& air, const Scale& scale, double time, std::int64_t count) {
+  for (const auto& run : air.rows.runs())
+    for (int n = 0; n < run.count; ++n) {
+      const auto m = lbm::moments_at(air, run.first + n);
+      const double speed = std::sqrt(m.ux * m.ux + m.uy * m.uy + m.uz * m.uz);
+      if (speed < lbm::speed_limit && std::abs(m.density_excess) < 0.5) continue;
+      const Vec3 x = air.rows.centre(run.first + n);
+      diverge("the air diverged at step %lld (t = %.6g s): %lld cells out of range, the first at [%.5g, %.5g, %.5g] m: "
+              "speed %.4g (limit %.2g) and density %.4g in lattice units; %.4g m/s. Likely causes: lattice_speed too "
+              "high, dx too coarse for the narrowest gap, or an inlet faster than the reference speed",
+              static_cast<long long>(air.steps), time, static_cast<long long>(count), x[0], x[1], x[2], speed,
+              lbm::speed_limit, 1.0 + m.density_excess, scale.velocity(speed));
+    }
+  diverge("the air diverged at step %lld (t = %.6g s): %lld cells were out of range", static_cast<long long>(air.steps),
+          time, static_cast<long long>(count));
+}
+
+/// Sets what the boundaries do in a step whose middle is at `time`.
+void set_drive(const Models& models, double time, const Scale& scale, lbm::Drive& drive) {
+  drive.speed.assign(models.patches.size(), 0.0);
+  drive.density_excess.assign(models.patches.size(), 0.0);
+  for (std::size_t b = 0; b < models.patches.size(); ++b) {
+    if (models.patches[b].speed) drive.speed[b] = scale.velocity_lu(models.patches[b].speed(time));
+    if (models.patches[b].pressure) drive.density_excess[b] = scale.density_excess_lu(models.patches[b].pressure(time));
+  }
+  const Vec3 force = models.body_force ? models.body_force(time) : Vec3(Vec3::Zero());
+  for (int d = 0; d < 3; ++d) drive.uniform_force[d] = scale.force_density_lu(force[d]);
+}
+
+/// Marks the runs beside carriers, where the kernel reads forces or writes moments.
+void flag_runs(const std::vector<char>& touched, std::uint8_t flag, lbm::Air& air) {
+  for (std::size_t r = 0; r < touched.size(); ++r) {
+    air.run_flags[r] = static_cast<std::uint8_t>(air.run_flags[r] & ~flag);
+    if (touched[r]) air.run_flags[r] = static_cast<std::uint8_t>(air.run_flags[r] | flag);
+  }
+}
+
+/// The carriers' reaction of the last interval becomes a force in the cells during `interval`.
+void give_reaction(double interval, State& s) {
+  Spreader::clear(s.spread_on, s.air->force);
+  std::fill(s.touched.begin(), s.touched.end(), 0);
+  if (!s.impulse_on_air.empty()) {
+    const MomentumBooking booking = s.spreader.spread(s.stencils, s.impulse_on_air, interval, s.scale, s.air->force);
+    s.momentum.given += booking.given;
+    s.momentum.taken += booking.taken;
+    s.momentum.rounding += booking.rounding;
+    s.momentum.exchanged += booking.exchanged;
+    s.stencils.mark_runs(s.cells, s.touched);
+    s.spread_on = s.stencils;
+  } else {
+    s.spread_on = Stencils();
+  }
+  flag_runs(s.touched, lbm::run_forced, *s.air);
+}
+
+void step_air(const Models& models, int steps, double rescale, State& s) {
+  lbm::Air& air = *s.air;
+  for (int n = 0; n < steps; ++n) {
+    lbm::CollisionConstants constants;
+    const double tau = s.scale.relaxation_time(models.air.viscosity / models.air.density);
+    constants.tau0 = tau;
+    if (n == 0 && rescale != 1.0) {
+      constants.rescale = rescale;
+      constants.tau0_rescaled = tau;
+      constants.tau0 = 0.5 + (tau - 0.5) / rescale;
+    }
+    set_drive(models, s.time + (n + 0.5) * s.scale.dt, s.scale, s.drive);
+    if (n == steps - 1) {
+      std::fill(s.touched.begin(), s.touched.end(), 0);
+      s.stencils.mark_runs(s.cells, s.touched);
+      flag_runs(s.touched, lbm::run_moments, air);
+    } else if (n == 0) {
+      for (auto& f : air.run_flags) f = static_cast<std::uint8_t>(f & ~lbm::run_moments);
+    }
+    lbm::KernelReport report;
+    {
+      const Stopwatch watch(s.effort.air);
+      report = lbm::collide_and_stream(constants, s.drive, air);
+    }
+    {
+      const Stopwatch watch(s.effort.links);
+      lbm::apply_links(s.drive, air);
+    }
+    if (report.bad > 0) report_bad_cell(air, s.scale, s.time, report.bad);
+    s.extremes.max_speed_lu = std::max(s.extremes.max_speed_lu, std::sqrt(report.max_speed2));
+    s.extremes.min_tau = std::min(s.extremes.min_tau, tau);
+  }
+  s.extremes.min_dt = std::min(s.extremes.min_dt, s.scale.dt);
+  s.extremes.max_dt = std::max(s.extremes.max_dt, s.scale.dt);
+  s.effort.steps_at_reference_dt += steps * s.scale.dt / models.time_step.reference_dt;
+}
+
+/// Velocity of the air and drag coefficient at every carrier.
+void find_loads(const Models& models, double interval, State& s) {
+  dem::Carriers& c = s.carriers.carriers;
+  const std::size_t count = c.size();
+  std::vector<int> which(count);
+  for (std::size_t p = 0; p < count; ++p) which[p] = static_cast<int>(p);
+  std::vector<Vec3> velocity(count, Vec3::Zero());
+  if (s.air) {
+    interpolate(s.stencils, s.air->moments, count, s.samples);
+    for (std::size_t p = 0; p < count; ++p) velocity[p] = s.samples.velocity_lu[p] * s.scale.speed();
+  } else if (models.frozen_air) {
+    for (std::size_t p = 0; p < count; ++p) velocity[p] = models.frozen_air(c.position[p]);
+  }
+  s.loads.assign(count, dem::Load{});
+  if (!s.air && !models.frozen_air) return;
+  std::vector<double> beta(count, 0.0), solid;
+  if (s.air && models.volume_fraction == VolumeFraction::in_drag) {
+    std::vector<double> volume(count);
+    for (std::size_t p = 0; p < count; ++p) volume[p] = c.carriers[p] * 4.1887902047863909846 * std::pow(c.single_radius[p], 3);
+    solid.assign(count, 0.0);
+    solid_fraction(s.stencils, volume, s.scale.dx, s.spreader, solid);
+  }
+  drag_coefficients(models.drag, models.air, which, velocity, c.velocity, c.single_radius, c.carriers, solid, beta);
+  if (s.air && models.two_way) {
+    std::vector<double> scratch(count, 0.0);
+    limit_drag(s.stencils, interval, s.scale, s.spreader, scratch, beta);
+  }
+  for (std::size_t p = 0; p < count; ++p) {
+    s.loads[p].air_velocity = velocity[p];
+    s.loads[p].drag = beta[p];
+  }
+}
+
+/// Takes carriers out that have left through an opening. One that has left through a wall is a failure.
+void remove_departed(const Models& models, State& s) {
+  dem::Carriers& c = s.carriers.carriers;
+  std::vector<std::uint8_t> gone;
+  std::vector<std::int64_t> emitted;
+  for (std::size_t p = 0; p < c.size(); ++p) {
+    if (c.rest[p] != dem::Rest::awake) continue;
+    const auto triangle = models.walls->beyond_opening(c.position[p]);
+    if (!triangle) continue;
+    gone.resize(c.size(), 0);
+    gone[p] = 1;
+    const int patch = models.opening_of_triangle[*triangle];
+    s.departures.push_back({c.id[p], s.time, patch, c.carriers[p]});
+    emitted.push_back(c.id[p]);
+  }
+  if (gone.empty()) return;
+  mark_emitted(emitted, s.fines);
+  dem::remove(gone, s.carriers);  // what they owe the air is still in impulse_on_air, by their old places
+}
+
+void move_fines(const Models& models, std::int64_t steps, double interval, State& s) {
+  if (!models.fines || !s.air) return;
+  {
+    const Stopwatch watch(s.effort.fines);
+    const double before = s.fines.to_air[0].value() + s.fines.to_air[1].value() + s.fines.to_air[2].value();
+    s.release.by_contacts(s.events.begun, s.first_motion.time(), s.carriers.carriers, *models.fines, s.cells, s.fines,
+                          s.scalars);
+    if (models.fines->drag_detach) {
+      const auto& c = s.carriers.carriers;
+      std::vector<double> slip(c.size());
+      for (std::size_t p = 0; p < c.size(); ++p) slip[p] = (s.loads[p].air_velocity - c.velocity[p]).norm();
+      s.release.by_drag(s.stencils, slip, interval, c, *models.fines, s.fines, s.scalars);
+    }
+    const double after = s.fines.to_air[0].value() + s.fines.to_air[1].value() + s.fines.to_air[2].value();
+    s.airborne = s.airborne || after > before;
+  }
+  s.steps_since_scalars += steps;
+  if (!s.airborne) s.effort.scalar_steps_off += steps;
+}
+
+/// Carries the airborne fines over the steps since the last time. Due when the next exchange could exceed the CFL limit.
+void carry_fines(const Models& models, bool now, State& s) {
+  if (s.scalars.scalars() == 0 || !s.air) return;
+  if (!s.airborne) {
+    s.steps_since_scalars = 0;
+    return;
+  }
+  if (s.steps_since_scalars == 0 || (!now && s.steps_since_scalars + models.steps_per_exchange <= s.steps_per_scalar_update))
+    return;
+  const Stopwatch watch(s.effort.scalars);
+  lbm::ScalarOptions options = models.scalars;
+  for (std::size_t k = 0; k < options.scalar.size(); ++k)
+    options.scalar[k].diffusivity = s.scale.viscosity_lu(models.diffusion[k]);
+  lbm::find_mass_fluxes(*s.air, s.routes, s.fluxes);
+  lbm::advance_scalars(s.air->rows, s.fluxes, static_cast<double>(s.steps_since_scalars), options, s.scalars, s.budget);
+  s.steps_per_scalar_update =
+      std::clamp(std::floor(lbm::max_steps(s.air->rows, s.fluxes, options.cfl)), 1.0, 64.0);
+  s.effort.scalar_steps += s.steps_since_scalars;
+  s.steps_since_scalars = 0;
+}
+
+}  // namespace
+
+void advance(const Models& models, double until, State& s) {
+  // The time step of this interval, and how many air steps it has.
+  const double old_dt = s.scale.dt;
+  const double wanted = models.time_step.next(s.time, old_dt);
+  const double rescale = s.air && s.air->steps > 0 ? wanted / old_dt : 1.0;
+  if (rescale != 1.0) {
+    carry_fines(models, true, s);  // with the old step's fluxes
+    ++s.effort.rescalings;
+  }
+  s.scale.dt = wanted;
+  const bool resting = all_asleep(s.carriers.carriers);
+  const int most = s.carriers.carriers.size() == 0 || resting ? models.steps_per_exchange_asleep : models.steps_per_exchange;
+  const int steps = std::clamp(static_cast<int>(std::ceil((until - s.time) / s.scale.dt - 1e-9)), 1, most);
+  const double interval = steps * s.scale.dt;
+  if (resting && s.carriers.carriers.size() > 0) s.effort.exchanges_saved += steps / models.steps_per_exchange - 1;
+
+  if (s.air) {
+    {
+      const Stopwatch watch(s.effort.exchange);
+      give_reaction(interval, s);
+      std::vector<int> all(s.carriers.carriers.size());
+      for (std::size_t p = 0; p < all.size(); ++p) all[p] = static_cast<int>(p);
+      s.stencils.build(s.cells, s.carriers.carriers.position, s.carriers.carriers.radius, all);
+    }
+    step_air(models, steps, rescale, s);
+  }
+  s.events.clear();
+  if (s.carriers.carriers.size() > 0) {
+    ++s.effort.exchanges;
+    if (s.time >= models.carriers_start)
+      for (auto& rest : s.carriers.carriers.rest)
+        if (rest == dem::Rest::held) rest = dem::Rest::awake;
+    {
+      const Stopwatch watch(s.effort.exchange);
+      find_loads(models, interval, s);
+    }
+    {
+      const Stopwatch watch(s.effort.carriers);
+      dem::advance(interval, models.carriers, *models.walls, s.loads, s.carriers, s.events);
+    }
+    s.first_motion.update(s.carriers.carriers, s.time + interval);
+    count_collisions(s.events.begun, s.carriers.carriers, s.first_motion.time(), s.collisions);
+    if (s.air && models.two_way) {
+      s.impulse_on_air.resize(s.carriers.carriers.size());
+      for (std::size_t p = 0; p < s.impulse_on_air.size(); ++p) s.impulse_on_air[p] = -s.carriers.drag_impulse[p];
+    }
+  }
+  s.time += interval;
+  move_fines(models, steps, interval, s);
+  carry_fines(models, false, s);
+  if (s.carriers.carriers.size() > 0) remove_departed(models, s);
+}
+
+}  // namespace puffin::coupling

@@ -1,0 +1,135 @@
+#pragma once
+// Everything that changes during a run, and everything that does not. Both plain data.
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "coupling/collisions.hpp"
+#include "coupling/drag.hpp"
+#include "coupling/fines.hpp"
+#include "coupling/first_motion.hpp"
+#include "coupling/mesh_walls.hpp"
+#include "coupling/release_fines.hpp"
+#include "coupling/scale.hpp"
+#include "coupling/time_step.hpp"
+#include "coupling/transfer.hpp"
+#include "dem/loads.hpp"
+#include "dem/models.hpp"
+#include "dem/state.hpp"
+#include "lbm/air.hpp"
+#include "lbm/mass_fluxes.hpp"
+#include "lbm/scalars/advance_scalars.hpp"
+#include "micromodels/fines_models.hpp"
+
+namespace puffin::coupling {
+
+using Vec3 = Eigen::Vector3d;
+
+/// What drives one patch of the surface, in SI units, as a function of time [s].
+struct PatchDrive {
+  std::string patch;
+  std::function<double(double)> speed;     // inlet: section mean into the domain; moving wall: its speed [m/s]
+  std::function<double(double)> pressure;  // outlet: gauge pressure [Pa]
+  bool is_inlet = false, is_outlet = false;
+  double area = 0.0;                       // [m^2]
+};
+
+enum class VolumeFraction { none, in_drag };
+
+/// Immutable during a run.
+struct Models {
+  Air air;                          // density, viscosity (SI)
+  std::vector<PatchDrive> patches;  // one for each boundary of lbm::Air
+  std::function<Vec3(double)> body_force;      // [N/m^3]; empty: none
+  std::function<Vec3(const Vec3&)> frozen_air; // velocity [m/s] where there is no lattice; empty: no air at all
+  TimeStepRule time_step;
+  DragLaw drag = SchillerNaumann{};
+  VolumeFraction volume_fraction = VolumeFraction::in_drag;
+  dem::Models carriers;
+  std::shared_ptr<const MeshWalls> walls;
+  std::vector<int> opening_of_triangle;  // per triangle of the surface: patch if it is an opening, else -1
+  bool two_way = true;
+  double carriers_start = 0.0;  // [s] until then carriers are held
+  std::optional<micromodels::FinesModels> fines;
+  std::vector<double> diffusion;  // per scalar: Gamma / rho [m^2/s]
+  lbm::ScalarOptions scalars;     // diffusivity is set from `diffusion` each step
+  int steps_per_exchange = 2;     // air steps between two exchanges with moving carriers
+  int steps_per_exchange_asleep = 16;
+};
+
+/// A carrier that left through an opening.
+struct Departure {
+  std::int64_t id = -1;
+  double time = 0.0;  // [s]
+  int patch = -1;
+  double carriers = 1.0;
+};
+
+/// Seconds by phase of the work, and counts of what was left out.
+struct Effort {
+  double air = 0.0, links = 0.0, exchange = 0.0, carriers = 0.0, fines = 0.0, scalars = 0.0;  // [s]
+  std::int64_t exchanges = 0, exchanges_saved = 0;      // saved: while every carrier slept
+  std::int64_t scalar_steps = 0, scalar_steps_off = 0;  // off: air steps before anything was airborne
+  std::int64_t rescalings = 0;
+  double steps_at_reference_dt = 0.0;                   // air steps that a fixed time step would have taken
+};
+
+/// Largest departures from what the method is made for, since the start.
+struct Extremes {
+  double max_speed_lu = 0.0;
+  double min_dt = 1e300, max_dt = 0.0, min_tau = 1e300;
+};
+
+struct State {
+  double time = 0.0;  // [s]
+  Scale scale;
+
+  std::optional<lbm::Air> air;
+  lbm::Drive drive;
+  CellIndex cells;
+  std::vector<char> touched;  // scratch: runs near carriers
+
+  dem::State carriers;
+  Fines fines;
+  Collisions collisions;
+  FirstMotion first_motion;
+  std::vector<Departure> departures;
+  dem::Events events;  // of the last exchange; the caller may read and must not keep references
+
+  Stencils stencils, spread_on;      // present, and those on which forces lie
+  AirSamples samples;
+  Spreader spreader;
+  std::vector<Vec3> impulse_on_air;  // [N s] by place in `stencils`, to be given to the air in the next exchange
+  MomentumBooking momentum;          // sums since the start [N s]
+  std::vector<dem::Load> loads;
+  FinesRelease release;
+
+  lbm::ScalarFields scalars;
+  lbm::ScalarBudget budget;
+  lbm::FaceFluxes fluxes;
+  lbm::FluxRoutes routes;
+  std::int64_t steps_since_scalars = 0;
+  double seconds_since_scalars = 0.0;
+  double steps_per_scalar_update = 1.0;
+  bool airborne = false;             // fines have been released
+
+  Effort effort;
+  Extremes extremes;
+};
+
+/// The physics left the range in which the method means anything.
+class Diverged : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Moves everything by one exchange interval, at most to `until`: some air steps, one step of the carriers, fines.
+/// This is the only place that orders the physics. Throws Diverged naming step, cell or carrier, value and limit.
+void advance(const Models& models, double until, State& state);
+
+}  // namespace puffin::coupling
