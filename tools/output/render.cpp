@@ -1,5 +1,6 @@
 #include "tools/output/render.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -98,7 +99,8 @@ void render(const fs::path& run, View view, std::optional<double> time, const fs
       case View::slice: {
         const FieldFrame field = field_of(run, time, moment);
         caption.time = moment;
-        const int axis = options.slice_axis;
+        const auto thinnest = std::min_element(field.size.begin(), field.size.end()) - field.size.begin();
+        const int axis = options.slice_axis.value_or(static_cast<int>(thinnest));
         const double middle = field.origin[axis] + 0.5 * field.dx * (field.size[axis] - 1);
         return slice_picture(field, walls_of(run, {}), axis, options.slice_at.value_or(middle), caption,
                              options.value_max, options.width, options.height);

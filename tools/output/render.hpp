@@ -16,7 +16,7 @@ const char* name_of(View view);
 
 struct RenderOptions {
   int width = 1600, height = 1000;      // [pixel]
-  int slice_axis = 2;                   // 0, 1, 2: the normal of the slice is x, y, z
+  std::optional<int> slice_axis;        // 0, 1, 2: the normal is x, y, z; absent: across the thinnest extent
   std::optional<double> slice_at;       // position along the normal [m]; absent: the middle
   std::string wall_quantity = "fines";  // fines | hits | energy
   std::optional<double> value_max;      // upper end of the colour scale (speed [m/s]); absent: from the frame

@@ -12,7 +12,20 @@
 namespace puffin::output {
 namespace {
 
-constexpr double azimuth = -62, elevation = 33;  // from before and above; x runs to the right
+constexpr double azimuth = -62;  // from the front; x runs to the right
+
+/// The steepest view from above that still shows the device as large as the flattest one does: slender devices are
+/// seen better from higher up.
+double elevation_for(const Extent& extent, const Box& view) {
+  const auto scale = [&](double elevation) {
+    return Camera::looking(azimuth, elevation, extent.low, extent.high, view).scale;
+  };
+  double best = 30;
+  for (double elevation = 30; elevation <= 50; elevation += 2) {
+    if (scale(elevation) > 0.97 * scale(30)) best = elevation;
+  }
+  return best;
+}
 
 std::string formatted(const char* format, double value) {
   char text[64];
@@ -42,6 +55,25 @@ void add_glass(const WallFrame& walls, float wall_opacity, Scene& scene) {
         {point_of(walls.vertices[a]), point_of(walls.vertices[b]), point_of(walls.vertices[c]), glass, wall_opacity});
   }
   for (const auto& edge : outline_of(walls, soft_ink, 1.6f, 0.75f)) scene.edges.push_back(edge);
+}
+
+/// The name on the patch, or above it with a line to it if the patch is too small on the picture.
+void draw_patch_name(const WallFrame& walls, int patch, const Camera& camera, const Vec3& middle, Canvas& canvas) {
+  double left = 1e9, right = -1e9, top = 1e9;
+  for (std::size_t t = 0; t < walls.triangles.size(); ++t) {
+    if (walls.patch[t] != patch) continue;
+    for (const int corner : walls.triangles[t]) {
+      const Vec3 p = camera.project(point_of(walls.vertices[corner]));
+      left = std::min(left, p.x()), right = std::max(right, p.x()), top = std::min(top, p.y());
+    }
+  }
+  const std::string& name = walls.patches[patch].name;
+  double y = middle.y();
+  if (right - left < 15.0 * static_cast<double>(name.size()) + 30) {
+    y = std::max(top - 70, 150.0);
+    canvas.line(middle.x(), middle.y(), middle.x(), y + 18, soft_ink, 1.5);
+  }
+  canvas.text(std::max(middle.x(), 60.0), y, name, {.size = 25, .bold = true, .align = Align::centre, .halo = true});
 }
 
 float speed_of(const std::array<float, 3>& v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
@@ -75,7 +107,7 @@ Canvas geometry_picture(const WallFrame& walls, const Caption& caption, int widt
   }
   scene.edges = outline_of(walls, ink, 1.8f, 0.8f);
   const Box view = stage(width, height, 300);
-  const Camera camera = Camera::looking(azimuth, elevation, extent.low, extent.high, view);
+  const Camera camera = Camera::looking(azimuth, elevation_for(extent, view), extent.low, extent.high, view);
   paint(scene, camera, view, canvas);
 
   const Vec3 size = (extent.high - extent.low) * 1e3;
@@ -86,9 +118,7 @@ Canvas geometry_picture(const WallFrame& walls, const Caption& caption, int widt
                                    std::to_string(walls.triangles.size()) + " triangles"));
   for (std::size_t p = 0; p < walls.patches.size(); ++p) {
     if (walls.patches[p].name == "wall" || measures[p].area <= 0) continue;
-    const Vec3 at = camera.project(measures[p].middle);
-    canvas.text(at.x(), at.y(), walls.patches[p].name,
-                {.size = 25, .bold = true, .align = Align::centre, .halo = true});
+    draw_patch_name(walls, static_cast<int>(p), camera, camera.project(measures[p].middle), canvas);
   }
   draw_legend(canvas, width - 300, 170, legend);
   draw_scale_bar(canvas, 60, height - 45, camera.scale);
@@ -108,7 +138,7 @@ Canvas carriers_picture(const WallFrame& walls, const CarrierFrame& carriers, co
         {point_of(carriers.position[i]), 0.5 * carriers.diameter[i], scale.colour(speed_of(carriers.velocity[i]))});
   }
   const Box view = stage(width, height, 150);
-  const Camera camera = Camera::looking(azimuth, elevation, extent.low, extent.high, view);
+  const Camera camera = Camera::looking(azimuth, elevation_for(extent, view), extent.low, extent.high, view);
   paint(scene, camera, view, canvas);
   draw_title(canvas, "Carriers",
              subtitle(caption, std::to_string(carriers.position.size()) + " tracked bodies in the device"));
@@ -214,9 +244,10 @@ Canvas wall_map_picture(const WallFrame& walls, const std::string& quantity, con
   Box left = whole, right = whole;
   left.width = right.width = 0.5 * whole.width - 10, right.x += 0.5 * whole.width + 10;
   const auto scale_in = [&](const Box& box) {
-    return Camera::looking(azimuth, elevation, extent.low, extent.high, box).scale;
+    return Camera::looking(azimuth, elevation_for(extent, box), extent.low, extent.high, box).scale;
   };
   if (scale_in(left) > scale_in(first)) first = left, second = right;
+  const double elevation = elevation_for(extent, first);
   const Camera above = Camera::looking(azimuth, elevation, extent.low, extent.high, first);
   const Camera below = Camera::looking(azimuth, -elevation, extent.low, extent.high, second);
   paint(scene, above, first, canvas);

@@ -1,0 +1,74 @@
+// puffin render
+
+#include "tools/output/render.hpp"
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "cases/units.hpp"
+#include "tools/puffin/commands.hpp"
+#include "tools/puffin/console.hpp"
+#include "tools/puffin/exit_codes.hpp"
+
+namespace puffin::tools {
+namespace {
+
+struct RenderArguments {
+  std::filesystem::path run, out;
+  std::string view = "carriers", at, plane, quantity = "fines", maximum;
+};
+
+double quantity(const std::string& text, const cases::Unit& unit, const char* option) try {
+  return cases::parse_quantity(text, unit);
+} catch (const cases::UnitError& e) {
+  throw UsageError(std::string(option) + ": " + e.what());
+}
+
+/// "z" or "z=2.2mm".
+void set_plane(const std::string& text, output::RenderOptions& options) {
+  const std::size_t axis = std::string("xyz").find(text.substr(0, 1));
+  if (axis == std::string::npos || (text.size() > 1 && text[1] != '='))
+    throw UsageError("--plane " + text + ": write an axis and a place, for example z=2.2mm");
+  options.slice_axis = static_cast<int>(axis);
+  if (text.size() > 1) options.slice_at = quantity(text.substr(2), cases::unit::length, "--plane");
+}
+
+int render_command(const RenderArguments& given) {
+  output::RenderOptions options;
+  options.wall_quantity = given.quantity;
+  if (!given.plane.empty()) set_plane(given.plane, options);
+  if (!given.maximum.empty()) options.value_max = quantity(given.maximum, cases::unit::velocity, "--max");
+  std::optional<double> time;
+  if (!given.at.empty()) time = quantity(given.at, cases::unit::time, "--at");
+  output::render(given.run, output::parse_view(given.view), time, given.out, options);
+  print(given.out.string());
+  return 0;
+}
+
+}  // namespace
+
+namespace commands {
+Command render() {
+  return {"render", "a picture of a run; no display needed", [](CLI::App& app) -> Action {
+            auto given = std::make_shared<RenderArguments>();
+            app.add_option("run", given->run, "the folder of a run")->required()->type_name("RUNDIR");
+            app.add_option("--view", given->view, "carriers, wall-map, slice or geometry")
+                ->check(CLI::IsMember({"carriers", "wall-map", "slice", "geometry"}))
+                ->capture_default_str();
+            app.add_option("--at", given->at, "the stored moment nearest to this; default the last")->type_name("TIME");
+            app.add_option("--plane", given->plane, "of the slice: an axis and a place, z=2.2mm; default the middle")
+                ->type_name("AXIS[=LENGTH]");
+            app.add_option("--quantity", given->quantity, "of the wall map: fines, hits or energy")
+                ->check(CLI::IsMember({"fines", "hits", "energy"}))
+                ->capture_default_str();
+            app.add_option("--max", given->maximum, "upper end of the speed scale, to compare pictures")
+                ->type_name("VELOCITY");
+            app.add_option("--out", given->out, "the picture")->required()->type_name("FILE.png");
+            return [given] { return render_command(*given); };
+          }};
+}
+}  // namespace commands
+
+}  // namespace puffin::tools
