@@ -1,6 +1,8 @@
 set(PUFFIN_GEOMETRY_SOURCES
   geometry/adjacency.cpp
+  geometry/hole_filling.cpp
   geometry/patches.cpp
+  geometry/repair.cpp
   geometry/row_crossings.cpp
   geometry/self_intersection.cpp
   geometry/shells.cpp

@@ -70,7 +70,8 @@ class Parser {
   // The next word, empty at the end of the file; line_ is the line of that word.
   std::string_view next() {
     while (at_ < text_.size() && is_space(text_[at_])) {
-      if (text_[at_] == '\n') ++line_;
+      // A line ends in LF, CR LF or (old Macintosh) CR.
+      if (text_[at_] == '\n' || (text_[at_] == '\r' && text_.substr(at_ + 1, 1) != "\n")) ++line_;
       ++at_;
     }
     const std::size_t begin = at_;
@@ -80,7 +81,7 @@ class Parser {
 
   std::string_view rest_of_line() {
     std::size_t begin = at_;
-    while (at_ < text_.size() && text_[at_] != '\n') ++at_;
+    while (at_ < text_.size() && text_[at_] != '\n' && text_[at_] != '\r') ++at_;
     std::size_t end = at_;
     while (begin < end && is_space(text_[begin])) ++begin;
     while (end > begin && is_space(text_[end - 1])) --end;
@@ -98,15 +99,14 @@ class Parser {
     const std::string_view word = next();
     if (word.empty()) {
       fail(std::string("the file ends inside a facet, where ") + what +
-           " was expected; it is truncated: export or copy "
-           "it again");
+           " was expected; it is truncated: export or copy it again");
     }
     return word;
   }
 
-  void expect(std::string_view word) {
-    const std::string_view got = expect_any((quoted(word)).c_str());
-    if (!same_word(got, word)) fail(quoted(got) + " where '" + std::string(word) + "' was expected");
+  void expect(const char* word) {
+    const std::string_view got = expect_any(word);
+    if (!same_word(got, word)) fail(quoted(got) + " where '" + word + "' was expected");
   }
 
   double number() {

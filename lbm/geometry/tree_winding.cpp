@@ -9,8 +9,23 @@ namespace puffin::lbm::geometry {
 
 namespace {
 
-// A cluster of triangles seen from farther than this many of its radii is a dipole.
+// A cluster of triangles seen from farther than this many of its radii is taken by its expansion.
 constexpr double far_radii = 3.0;
+
+// Adds the symmetric part of a b^T.
+void add_outer(const Vec3& a, const Vec3& b, std::array<double, 6>& m) {
+  for (int d = 0; d < 3; ++d) {
+    const int e = (d + 1) % 3;
+    m[d] += a[d] * b[d];
+    m[3 + d] += 0.5 * (a[d] * b[e] + a[e] * b[d]);
+  }
+}
+
+// r^T M r
+double quadratic(const std::array<double, 6>& m, const Vec3& r) {
+  return m[0] * r.x() * r.x() + m[1] * r.y() * r.y() + m[2] * r.z() * r.z() +
+         2.0 * (m[3] * r.x() * r.y() + m[4] * r.y() * r.z() + m[5] * r.z() * r.x());
+}
 
 // Signed solid angle of a triangle seen from the origin, positive if its normal points away from the origin.
 // Source: van Oosterom & Strackee, IEEE Trans. Biomed. Eng. 30, 125 (1983).
@@ -30,33 +45,37 @@ void TriangleTree::set_dipoles() {
     for (int c = 0; c < 4; ++c) {
       if (node.count[c] == 0) continue;
       Dipole& dipole = dipoles_[n][c];
-      double weight = 0.0;
       Vec3 weighted = Vec3::Zero();
-      auto add = [&](const Vec3& area, const Vec3& centre, double w) {
-        dipole.area += area;
-        weighted += w * centre;
-        weight += w;
-      };
-      if (node.child[c] < 0) {
-        for (int i = ~node.child[c]; i < ~node.child[c] + node.count[c]; ++i) {
-          const auto& [p, q, r] = corners_[i];
-          const Vec3 area = 0.5 * (q - p).cross(r - p);
-          add(area, (p + q + r) / 3.0, area.norm());
+      auto for_parts = [&](auto&& visit) {  // visit(area vector, centre, area, moment)
+        if (node.child[c] < 0) {
+          for (int i = ~node.child[c]; i < ~node.child[c] + node.count[c]; ++i) {
+            const auto& [p, q, r] = corners_[i];
+            const Vec3 area = 0.5 * (q - p).cross(r - p);
+            visit(area, Vec3((p + q + r) / 3.0), area.norm(), std::array<double, 6>{});
+          }
+          return;
         }
-      } else {
         for (int k = 0; k < 4; ++k) {
           const Dipole& part = dipoles_[node.child[c]][k];
-          if (nodes_[node.child[c]].count[k] > 0) add(part.area, part.centre, part.weight);
+          if (nodes_[node.child[c]].count[k] > 0) visit(part.area, part.centre, part.weight, part.moment);
         }
-      }
+      };
+      for_parts([&](const Vec3& area, const Vec3& centre, double weight, const std::array<double, 6>&) {
+        dipole.area += area;
+        weighted += weight * centre;
+        dipole.weight += weight;
+      });
       Vec3 low, high;
       for (int d = 0; d < 3; ++d) {
         low[d] = node.low[d][c] + centre_[d];
         high[d] = node.high[d][c] + centre_[d];
       }
-      dipole.weight = weight;
-      dipole.centre = weight > 0.0 ? Vec3(weighted / weight) : Vec3(0.5 * (low + high));
+      dipole.centre = dipole.weight > 0.0 ? Vec3(weighted / dipole.weight) : Vec3(0.5 * (low + high));
       dipole.radius = (dipole.centre - low).cwiseMax(high - dipole.centre).norm();
+      for_parts([&](const Vec3& area, const Vec3& centre, double, const std::array<double, 6>& moment) {
+        for (int m = 0; m < 6; ++m) dipole.moment[m] += moment[m];
+        add_outer(area, centre - dipole.centre, dipole.moment);
+      });
     }
   }
 }
@@ -75,7 +94,10 @@ double TriangleTree::winding_number(const Vec3& p) const {
       const Vec3 r = dipole.centre - p;
       const double d2 = r.squaredNorm();
       if (d2 > far_radii * far_radii * dipole.radius * dipole.radius) {
-        angle += dipole.area.dot(r) / (d2 * std::sqrt(d2));
+        // sum A_t . g(r + s_t) with g(r) = r / r^3, s_t the offset of triangle t, and dg/dr = I / r^3 - 3 r r^T / r^5.
+        const double inverse3 = 1.0 / (d2 * std::sqrt(d2));
+        const double trace = dipole.moment[0] + dipole.moment[1] + dipole.moment[2];
+        angle += inverse3 * (dipole.area.dot(r) + trace - 3.0 * quadratic(dipole.moment, r) / d2);
       } else if (node.child[c] >= 0) {
         stack[top++] = node.child[c];
       } else {

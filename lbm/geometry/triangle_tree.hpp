@@ -87,10 +87,12 @@ class TriangleTree {
     std::array<std::int32_t, 4> child;
     std::array<std::int32_t, 4> count;
   };
-  // Far field of one child: sum of area vectors, their area-weighted centre, radius of the corners around it.
+  // Far field of one child, expanded around its area-weighted centre: sum of the area vectors A_t and, of sum A_t
+  // (c_t - centre)^T with the triangles' centres c_t, the trace and the symmetric part (xx, yy, zz, xy, yz, zx).
   struct Dipole {
     Vec3 centre = Vec3::Zero(), area = Vec3::Zero();
-    double radius = 0.0, weight = 0.0;  // weight: sum of the areas
+    std::array<double, 6> moment{};
+    double radius = 0.0, weight = 0.0;  // of the corners around the centre; sum of the areas
   };
   struct Corners {
     Vec3 a, b, c;

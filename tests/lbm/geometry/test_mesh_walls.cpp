@@ -1,0 +1,115 @@
+// The walls that carriers meet: triangles less openings.
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "coupling/mesh_walls.hpp"
+#include "shapes.hpp"
+
+namespace puffin::coupling {
+namespace {
+
+using lbm::geometry::TriangleMesh;
+using lbm::geometry::TriangleTree;
+using lbm::geometry::Vec3;
+namespace shapes = lbm::geometry::shapes;
+
+class DuctWalls : public ::testing::Test {
+ protected:
+  DuctWalls() {
+    for (std::size_t t = 0; t < tree_->mesh().triangles.size(); ++t) {
+      if (tree_->mesh().solid[t] < 2) openings_.push_back(static_cast<int>(t));
+    }
+    walls_ = std::make_unique<MeshWalls>(tree_, openings_);
+  }
+  // Inlet at x = 0, 4 mm high; step at 10 mm down to 2 mm; outlet at 20 mm; 5 mm wide.
+  std::shared_ptr<const TriangleTree> tree_ =
+      std::make_shared<TriangleTree>(shapes::step_duct(0.01, 0.02, 0.005, 0.004, 0.002));
+  std::vector<int> openings_;
+  std::unique_ptr<MeshWalls> walls_;
+  std::vector<dem::WallTouch> touches_;
+};
+
+TEST_F(DuctWalls, TouchesWallsAndNoOpenings) {
+  walls_->near({0.0001, 0.0025, 0.002}, 2e-4, touches_);
+  EXPECT_TRUE(touches_.empty());
+  walls_->near({0.0001, 0.0001, 0.002}, 2e-4, touches_);
+  ASSERT_EQ(touches_.size(), 1u);
+  EXPECT_NEAR(touches_[0].distance, 1e-4, 1e-15);
+  EXPECT_LT((touches_[0].point - Vec3(0.0001, 0, 0.002)).norm(), 1e-15);
+  walls_->near({0.0099, 0.0001, 0.0039}, 2e-4, touches_);
+  EXPECT_EQ(touches_.size(), 3u);
+}
+
+TEST_F(DuctWalls, ClearanceIsALowerBoundOfTheDistanceToTheWallsAndTightWithinAGridStep) {
+  TriangleMesh wall = tree_->mesh();
+  for (int t = static_cast<int>(wall.triangles.size()); t-- > 0;) {
+    if (wall.solid[t] < 2) shapes::remove_triangle(wall, t);
+  }
+  const TriangleTree exact(wall);
+  std::mt19937 engine(1);
+  std::uniform_real_distribution<> x(-0.001, 0.021), y(-0.001, 0.006), z(-0.001, 0.005);
+  // Half a million nodes in 400 mm^3: 0.093 mm apart; the nearest node is at most sqrt(3)/2 of that away, and the bound
+  // loses twice that way. Outside the grid it is only a bound.
+  for (int n = 0; n < 20000; ++n) {
+    const Vec3 p(x(engine), y(engine), z(engine));
+    const double distance = exact.closest(p).distance, bound = walls_->clearance(p, 1.0);
+    ASSERT_LE(bound, distance);
+    const bool in_box = (p.array() >= tree_->min().array()).all() && (p.array() <= tree_->max().array()).all();
+    if (in_box) {
+      ASSERT_GE(bound, distance - 1.733 * 0.094e-3);
+    }
+    ASSERT_LE(walls_->clearance(p, 1e-4), 1e-4);
+  }
+}
+
+TEST_F(DuctWalls, InsideMeansInTheDuctOrBeyondAnOpening) {
+  EXPECT_TRUE(walls_->inside({0.005, 0.002, 0.003}));
+  EXPECT_TRUE(walls_->inside({0.0199, 0.002, 0.0019}));
+  EXPECT_TRUE(walls_->inside({0.0201, 0.002, 0.001}));    // left by the outlet
+  EXPECT_TRUE(walls_->inside({-0.0001, 0.002, 0.0039}));  // left by the inlet
+  EXPECT_FALSE(walls_->inside({0.005, -1e-5, 0.003}));    // in the wall
+  EXPECT_FALSE(walls_->inside({0.0101, 0.002, 0.003}));   // behind the step
+  const auto outlet = walls_->beyond_opening({0.0201, 0.002, 0.001});
+  ASSERT_TRUE(outlet);
+  EXPECT_EQ(tree_->mesh().solids[tree_->mesh().solid[*outlet]], "outlet");
+  EXPECT_FALSE(walls_->beyond_opening({0.005, 0.002, 0.003}));
+  EXPECT_FALSE(walls_->beyond_opening({0.0101, 0.002, 0.003}));
+}
+
+TEST_F(DuctWalls, InsideAgreesWithTheWindingNumberEverywhere) {
+  std::mt19937 engine(2);
+  std::uniform_real_distribution<> x(0.0, 0.02), y(0.0, 0.005), z(-0.001, 0.005);
+  const MeshWalls closed(tree_);
+  for (int n = 0; n < 20000; ++n) {
+    const Vec3 p(x(engine), y(engine), z(engine));
+    ASSERT_EQ(closed.inside(p), tree_->inside(p));
+  }
+}
+
+TEST(MeshWalls, ACurvedWallOfFacetsPushesOnce) {
+  // Inside a fine torus: near the wall a sphere feels one contact wherever it is, although two facets may be in reach.
+  const double ring = 0.02, tube = 0.006;
+  const auto tree =
+      std::make_shared<TriangleTree>(shapes::transformed(shapes::torus(ring, tube, 120, 60), shapes::rotation()));
+  const MeshWalls walls(tree);
+  std::mt19937 engine(3);
+  std::uniform_real_distribution<> angle(0.0, 6.28);
+  std::vector<dem::WallTouch> touches;
+  for (int n = 0; n < 5000; ++n) {
+    const double a = angle(engine), b = angle(engine), r = ring + (tube - 1e-4) * std::cos(b);
+    walls.near(shapes::rotation() * Vec3(r * std::cos(a), r * std::sin(a), (tube - 1e-4) * std::sin(b)), 1.2e-4,
+               touches);
+    ASSERT_EQ(touches.size(), 1u);
+  }
+}
+
+TEST(MeshWalls, NonsenseIsRefused) {
+  EXPECT_THROW(MeshWalls(nullptr), std::invalid_argument);
+  EXPECT_THROW(MeshWalls(std::make_shared<TriangleTree>(shapes::box({0, 0, 0}, {1, 1, 1})), {12}),
+               std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace puffin::coupling

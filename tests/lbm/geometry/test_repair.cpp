@@ -1,0 +1,113 @@
+// Mending: what can be mended is clean afterwards, and everything done is told.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "lbm/geometry/repair.hpp"
+#include "lbm/geometry/surface_check.hpp"
+#include "shapes.hpp"
+
+namespace puffin::lbm::geometry {
+namespace {
+
+std::size_t count(const std::vector<Repair>& done, const std::string& what) {
+  for (const Repair& r : done) {
+    if (r.what == what) return r.count;
+  }
+  return 0;
+}
+
+TriangleMesh torus() { return shapes::transformed(shapes::torus(0.02, 0.006, 40, 20), shapes::rotation()); }
+
+TEST(Repair, ACleanSurfaceIsLeftAlone) {
+  TriangleMesh mesh = torus();
+  EXPECT_TRUE(repair(mesh).empty());
+  const TriangleMesh before = torus();  // vertices may be numbered anew
+  ASSERT_EQ(mesh.triangles.size(), before.triangles.size());
+  for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
+    for (int k = 0; k < 3; ++k) EXPECT_EQ(mesh.corner(t, k), before.corner(t, k));
+  }
+}
+
+TEST(Repair, CornersOfItsOwnForEveryTriangleAreWelded) {
+  TriangleMesh soup;
+  const TriangleMesh whole = torus();
+  for (std::size_t t = 0; t < whole.triangles.size(); ++t) {
+    soup.triangles.push_back({static_cast<int>(3 * t), static_cast<int>(3 * t + 1), static_cast<int>(3 * t + 2)});
+    for (int k = 0; k < 3; ++k) soup.vertices.push_back(whole.corner(static_cast<int>(t), k));
+  }
+  soup.solid = whole.solid;
+  soup.solids = whole.solids;
+  EXPECT_EQ(count(repair(soup), "welded vertices"), 3 * whole.triangles.size() - whole.vertices.size());
+  EXPECT_TRUE(check_surface(soup).empty());
+}
+
+TEST(Repair, TurnedFacetsAreTurnedBackAndAnInsideOutSurfaceIsTurnedWhole) {
+  TriangleMesh mesh = torus();
+  for (const int t : {3, 100, 101, 555}) std::swap(mesh.triangles[t][0], mesh.triangles[t][1]);
+  EXPECT_EQ(count(repair(mesh), "turned facets"), 4u);
+  EXPECT_TRUE(check_surface(mesh).empty());
+  TriangleMesh inside_out = shapes::turned(torus());
+  EXPECT_EQ(count(repair(inside_out), "turned facets"), inside_out.triangles.size());
+  EXPECT_GT(enclosed_volume(inside_out), 0.0);
+}
+
+TEST(Repair, ABodyInTheFlowStaysABody) {
+  TriangleMesh mesh = shapes::joined(shapes::box({0, 0, 0}, {0.01, 0.01, 0.01}),
+                                     shapes::turned(shapes::sphere(0.002, 12, {0.005, 0.005, 0.005})));
+  const double volume = enclosed_volume(mesh);
+  EXPECT_TRUE(repair(mesh).empty());
+  EXPECT_EQ(enclosed_volume(mesh), volume);
+}
+
+TEST(Repair, DuplicateAndDegenerateFacetsGo) {
+  TriangleMesh mesh = torus();
+  const std::size_t before = mesh.triangles.size();
+  for (const int t : {7, 7, 20}) mesh.triangles.push_back(mesh.triangles[t]);
+  mesh.triangles.push_back({5, 5, 6});
+  mesh.solid.insert(mesh.solid.end(), 4, 0);
+  const auto done = repair(mesh);
+  EXPECT_EQ(count(done, "removed duplicate facets"), 3u);
+  EXPECT_EQ(count(done, "removed degenerate facets"), 1u);
+  EXPECT_EQ(mesh.triangles.size(), before);
+  EXPECT_TRUE(check_surface(mesh).empty());
+}
+
+TEST(Repair, TheCommonFaceOfTwoBodiesGoesSoThatTheyAreOne) {
+  TriangleMesh mesh =
+      shapes::joined(shapes::box({0, 0, 0}, {0.01, 0.01, 0.01}), shapes::box({0.01, 0, 0}, {0.02, 0.01, 0.01}));
+  // Both boxes must cut their common square along the same diagonal for the facets to coincide.
+  const auto done = repair(mesh);
+  EXPECT_NEAR(enclosed_volume(mesh), 2e-6, 1e-15);
+  for (const Defect& d : check_surface(mesh)) EXPECT_FALSE(d.fatal) << d.message;
+}
+
+TEST(Repair, SmallHolesAreFilledAndLargeOnesAreLeft) {
+  TriangleMesh mesh = torus();
+  const double volume = enclosed_volume(mesh);
+  for (int k = 0; k < 6; ++k) shapes::remove_triangle(mesh, 200);  // three squares in a row
+  shapes::remove_triangle(mesh, 900);
+  TriangleMesh left = mesh;
+  EXPECT_EQ(count(repair(left, {.largest_hole = 1e-4}), "filled holes"), 0u);
+  const auto done = repair(mesh, {.largest_hole = 0.03});
+  EXPECT_EQ(count(done, "filled holes"), 2u);
+  EXPECT_TRUE(check_surface(mesh).empty());
+  EXPECT_EQ(mesh.solids.back(), "filled-hole");
+  // Filling cuts across seven facets of about (pi R/20)(2 pi r/20) with a sagitta of r (1 - cos(3 pi/20)) at most.
+  EXPECT_NEAR(enclosed_volume(mesh), volume, 7 * 0.5 * 0.0041 * 0.0019 * 0.006 * 0.11);
+}
+
+TEST(Repair, AHolesNewFacetsDoNotFoldBackOnASingleTriangle) {
+  TriangleMesh mesh;
+  mesh.vertices = {{0, 0, 0}, {0.01, 0, 0}, {0, 0.01, 0}};
+  mesh.triangles = {{0, 1, 2}};
+  mesh.solid = {0};
+  mesh.solids = {"a"};
+  repair(mesh, {.largest_hole = 1.0});
+  EXPECT_EQ(mesh.triangles.size(), 1u);
+  EXPECT_THROW(require_closed(mesh), GeometryError);
+}
+
+}  // namespace
+}  // namespace puffin::lbm::geometry
