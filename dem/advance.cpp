@@ -46,10 +46,12 @@ void fly_freely(double duration, const Rules& rules, std::span<const Load> loads
 }
 
 /// Writes a cluster back: carriers, contacts, events.
-void commit(const Rules& rules, const Cluster& cluster, State& state, Events& events) {
+void commit(const Rules& rules, Cluster& cluster, State& state, Events& events) {
   Carriers& all = state.carriers;
-  for (const Body& body : cluster.bodies) {
+  for (std::size_t b = 0; b < cluster.bodies.size(); ++b) {
+    const Body& body = cluster.bodies[b];
     if (body.fixed && !body.stuck) continue;
+    std::swap(state.walls[body.carrier], cluster.walls[b]);
     const std::int32_t i = body.carrier;
     all.position[i] = body.x, all.velocity[i] = body.v, all.spin[i] = body.w;
     state.drag_impulse[i] = body.drag_impulse;

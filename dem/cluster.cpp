@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
+#include <string>
 
 #include "dem/contact_step.hpp"
 #include "dem/first_touch.hpp"
@@ -14,7 +16,8 @@ namespace {
 
 using Eigen::Vector3d;
 constexpr double never = std::numeric_limits<double>::infinity();
-constexpr double longest_way_near_walls = 0.2;  // in radii, between two looks
+constexpr std::int64_t most_steps = 50'000'000;  // something must be wrong
+constexpr double longest_way_near_walls = 0.2;   // in radii, between two looks
 
 /// Contact forces of all touches, then the accelerations; returns the largest next sub-step. `live`: something touches.
 double evaluate_all(double h, double time, double horizon, const Rules& rules, Cluster& cluster, bool& live) {
@@ -92,11 +95,13 @@ double time_of_flight(double horizon, const Cluster& cluster) {
 /// Largest time that no body may exceed without looking at the walls again.
 double time_to_look(double horizon, const Cluster& cluster) {
   double time = horizon;
-  for (const Body& body : cluster.bodies) {
+  for (std::size_t i = 0; i < cluster.bodies.size(); ++i) {
+    const Body& body = cluster.bodies[i];
     if (body.fixed) continue;
+    const WallCache& cache = cluster.walls[i];
     const double speed = body.v.norm();
-    double way = body.walls->clear - body.radius - (body.x - body.walls->asked_at).norm();
-    if (!body.walls->planes.empty()) way = std::min(way, longest_way_near_walls * body.radius);
+    double way = cache.clear - body.radius - (body.x - cache.asked_at).norm();
+    if (!cache.planes.empty()) way = std::min(way, longest_way_near_walls * body.radius);
     way = std::max(way, 0.01 * body.radius);
     if (speed * time > way) time = way / speed;
   }
@@ -107,11 +112,11 @@ void look_again(double time, double remaining, const Rules& rules, const Walls& 
   for (std::size_t i = 0; i < cluster.bodies.size(); ++i) {
     Body& body = cluster.bodies[i];
     if (body.fixed) continue;
-    const WallCache& cache = *body.walls;
+    WallCache& cache = cluster.walls[i];
     double radius = cache.clear - body.radius;
     if (!cache.planes.empty()) radius = std::min(radius, cache.trust);
     if ((body.x - cache.asked_at).squaredNorm() <= radius * std::abs(radius)) continue;
-    look_at_walls(walls, body.x, body.radius, body.v.norm() * remaining, cluster.scratch, *body.walls);
+    look_at_walls(walls, body.x, body.radius, body.v.norm() * remaining, cluster.scratch, cache);
     match_walls(static_cast<std::int32_t>(i), time, rules, cluster);
   }
 }
@@ -160,7 +165,7 @@ void set_dashpots(const Rules& rules, Touch& touch) {
 
 void match_walls(std::int32_t b, double time, const Rules& rules, Cluster& cluster) {
   constexpr double same_side = 0.8;  // cosine: the normal of one place turns by less between two looks
-  const std::vector<WallPlane>& planes = cluster.bodies[b].walls->planes;
+  const std::vector<WallPlane>& planes = cluster.walls[b].planes;
   const std::size_t old = cluster.touches.size();
   std::vector<std::int8_t> taken(old, 0);
   for (const WallPlane& plane : planes) {
@@ -194,7 +199,12 @@ void integrate(double time, double duration, const Rules& rules, const Walls& wa
       std::count_if(cluster.bodies.begin(), cluster.bodies.end(), [](const Body& body) { return !body.fixed; });
   double elapsed = 0.0;
   double step = evaluate_all(0.0, time, duration, rules, cluster, live);
+  std::int64_t taken = 0;
   while (elapsed < duration && !cluster.disturbed) {
+    if (++taken > most_steps)
+      throw std::runtime_error("dem: more than " + std::to_string(most_steps) + " sub-steps in one step of " +
+                               std::to_string(duration) + " s, with carrier " + std::to_string(cluster.bodies[0].id) +
+                               "; give shorter steps or a larger max_overlap");
     const double remaining = duration - elapsed;
     double h = time_to_look(std::min(step, remaining), cluster);
     if (!live) {

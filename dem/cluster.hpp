@@ -52,7 +52,6 @@ struct Body {
   double deviation = 0.0;         // largest distance from the straight course [m]
   Eigen::Vector3d imbalance;      // of a sleeper: change of force by what is outside the cluster [N]
   double limit = 0.0;             // of a sleeper: largest change of force it sleeps through [N]
-  WallCache* walls = nullptr;     // of an awake carrier
 };
 
 /// A live contact of a cluster, or a pair or wall that may become one.
@@ -70,7 +69,8 @@ struct Touch {
 };
 
 struct Cluster {
-  std::vector<Body> bodies;  // the moving ones first, in the order of their places; then the fixed ones
+  std::vector<Body> bodies;      // the moving ones first, in the order of their places; then the fixed ones
+  std::vector<WallCache> walls;  // of the bodies; may be longer, to keep its memory
   std::vector<Touch> touches;
   std::vector<ContactBegun> begun;
   std::vector<ContactEnded> ended;

@@ -10,7 +10,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-Body body_of(std::int32_t i, const Rules& rules, const Load& load, State& state) {
+Body body_of(std::int32_t i, const Rules& rules, const Load& load, const State& state) {
   const Carriers& all = state.carriers;
   Body body;
   body.carrier = i, body.id = all.id[i];
@@ -32,7 +32,6 @@ Body body_of(std::int32_t i, const Rules& rules, const Load& load, State& state)
   body.drag_force = load.drag * (load.air_velocity - body.v);
   body.load_size = body.steady.norm() + body.drag_force.norm();
   body.acceleration = (body.drag_force + body.steady) * body.inverse_mass;
-  body.walls = &state.walls[i];
   if (body.sleeper) {
     const RestMemory& rest = state.rest[i];
     body.imbalance = body.steady + body.drag_force - rest.load + contact_force(state, i) - rest.contact_force;
@@ -43,12 +42,17 @@ Body body_of(std::int32_t i, const Rules& rules, const Load& load, State& state)
 
 }  // namespace
 
-void fill(std::size_t index, double time, const Rules& rules, std::span<const Load> loads, State& state, Gathering& g) {
+void fill(std::size_t index, double time, const Rules& rules, std::span<const Load> loads, const State& state,
+          Gathering& g) {
   Cluster& cluster = g.clusters[index];
   cluster.clear();
   const std::int32_t *first = g.members.data() + g.member_begin[index],
                      *last = g.members.data() + g.member_begin[index + 1];
-  for (const std::int32_t* m = first; m < last; ++m) cluster.bodies.push_back(body_of(*m, rules, loads[*m], state));
+  cluster.walls.resize(std::max(cluster.walls.size(), static_cast<std::size_t>(last - first)));
+  for (const std::int32_t* m = first; m < last; ++m) {
+    cluster.walls[cluster.bodies.size()] = state.walls[*m];
+    cluster.bodies.push_back(body_of(*m, rules, loads[*m], state));
+  }
 
   // Fixed partners follow, each once.
   thread_local std::vector<std::int32_t> local;

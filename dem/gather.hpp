@@ -41,7 +41,7 @@ void renew_neighbours(double duration, const Rules& rules, const Gathering& gath
 void find_clusters(double duration, const Rules& rules, const State& state, Gathering& gathering);
 
 /// Copies the carriers, contacts and candidates of cluster `index` out of `state`.
-void fill(std::size_t index, double time, const Rules& rules, std::span<const Load> loads, State& state,
+void fill(std::size_t index, double time, const Rules& rules, std::span<const Load> loads, const State& state,
           Gathering& gathering);
 
 /// Compares the computed step with the guess. False if carriers left their margins so far that a pair outside the

@@ -1,0 +1,122 @@
+// Sleeping: saves time, and changes the answer within a stated bound.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/dem/scene.hpp"
+
+using namespace puffin::dem;
+using namespace puffin::dem::testing;
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr double radius = 35e-6;
+const double f0_wall = 4.0 * M_PI * 3.6e-3 * radius;
+
+/// Layers of carriers on a sticky floor, a little above each other, as a bed that falls together.
+Scene bed(int side, int layers, bool sleep) {
+  Scene s;
+  s.models.carrier.adhesion = Hamaker{3.6e-3, 0.0, 4e-10, ParcelScaling::ddpm};
+  s.law().restitution = 0.4;
+  s.law().rolling_friction = 0.05;
+  s.models.gravity = {0, 0, -9.81};
+  s.models.integration.sleep = sleep;
+  s.same_walls();
+  s.walls = PlaneWalls::floor();
+  int id = 0;
+  for (int k = 0; k < layers; ++k)
+    for (int j = 0; j < side; ++j)
+      for (int i = 0; i < side; ++i, ++id)
+        s.add(lactose(id, {i * 2.02 * radius + 1e-7 * (id % 3), j * 2.02 * radius + 1e-7 * (id % 5),
+                           radius * 1.02 + k * 2.02 * radius}));
+  return s;
+}
+
+}  // namespace
+
+TEST(Rest, ABedFallsAsleepAndThenCostsNothing) {
+  Scene s = bed(4, 2, true);
+  s.run(20e-3, 2e-6);
+  EXPECT_EQ(count_asleep(s.state), 32u);
+  const auto steps = s.state.statistics.contact_steps;
+  s.run(1e-3, 2e-6);
+  EXPECT_EQ(s.state.statistics.contact_steps, steps);
+  EXPECT_LT(s.state.statistics.largest_overlap, 0.02);
+}
+
+// Pulled up slowly, single carriers on the floor leave at F0 - m g with and without sleep; the load grows by 1e-3 F0 a
+// step and must be noticed within wake_change: the release itself is computed awake, so both agree within 2 steps.
+TEST(Rest, SleepersWakeInTimeToLeaveAtTheSameLoad) {
+  double released[2];
+  for (const bool sleep : {false, true}) {
+    Scene s = bed(1, 1, sleep);
+    s.run(10e-3, 2e-6);
+    EXPECT_EQ(count_asleep(s.state), sleep ? 1u : 0u);
+    double pull = 0.0;
+    while (s.events.ended.empty() && pull < 2.0 * f0_wall) {
+      pull += 1e-3 * f0_wall;
+      s.loads[0].force = {0, 0, pull};
+      s.run(100e-6, 2e-6);  // slowly: it falls asleep again between
+    }
+    released[sleep] = pull;
+  }
+  EXPECT_NEAR(released[1], released[0], 2e-3 * f0_wall);
+  EXPECT_NEAR(released[1], f0_wall, 3e-3 * f0_wall);
+}
+
+// Sideways: friction holds mu F0; with rotation off. Slides at the same drag with and without sleep.
+TEST(Rest, SleepersSlideAtTheSameLoad) {
+  double slid[2];
+  for (const bool sleep : {false, true}) {
+    Scene s = bed(1, 1, sleep);
+    s.models.rotation = false;
+    s.run(10e-3, 2e-6);
+    double pull = 0.0;
+    const double x0 = s.x(0).x();
+    while (s.x(0).x() - x0 < 3e-6 && pull < f0_wall) {
+      pull += 1e-3 * f0_wall;
+      s.loads[0].force = {pull, 0, 0};
+      s.run(60e-6, 2e-6);
+    }
+    slid[sleep] = pull;
+  }
+  EXPECT_NEAR(slid[1], slid[0], 5e-3 * f0_wall);
+  EXPECT_NEAR(slid[1], 0.3 * f0_wall, 0.02 * f0_wall);
+}
+
+// An impact on a sleeping bed is computed as if it were awake: momentum passes on in the same air step. The bed's rest
+// changes positions by less than 1e-4 of a diameter before; after the impact the paths agree within 1 % of the travel.
+TEST(Rest, AnImpactOnASleepingRowPassesItsMomentumOn) {
+  Vector3d v[2][3];
+  for (const bool sleep : {false, true}) {
+    Scene s = bed(1, 1, sleep);
+    s.models.gravity = Vector3d::Zero();
+    s.walls = PlaneWalls({{Vector3d(0, 0, 0), Vector3d::UnitZ()}});
+    s.state = State{};
+    s.loads.clear();
+    for (int i = 0; i < 3; ++i) s.add(lactose(i, {i * 2.0002 * radius, 0, 1.0002 * radius}, {0, 0, -1e-4}));
+    s.models.gravity = {0, 0, -9.81};
+    s.run(5e-3, 2e-6);
+    EXPECT_EQ(count_asleep(s.state), sleep ? 3u : 0u);
+    s.add(lactose(9, {-200e-6, 0, radius}, {10.0, 0, 0}));
+    s.run(60e-6, 2e-6);
+    for (int i = 0; i < 3; ++i) v[sleep][i] = s.v(i);
+  }
+  for (int i = 0; i < 3; ++i) EXPECT_LT((v[0][i] - v[1][i]).norm(), 0.01 * 10.0) << i;
+  EXPECT_GT(v[1][2].x(), 1.0);
+}
+
+// Static equilibrium is honest: a bed under half of the load that it can hold does not creep, awake or asleep.
+TEST(Rest, ABedUnderHalfItsLimitDoesNotCreep) {
+  for (const bool sleep : {false, true}) {
+    Scene s = bed(3, 1, sleep);
+    s.run(10e-3, 2e-6);
+    for (Load& load : s.loads) load.force = {0.01 * f0_wall, 0, 0.5 * f0_wall};
+    s.run(2e-3, 2e-6);
+    const std::vector<Vector3d> before = s.state.carriers.position;
+    s.run(5e-3, 2e-6);
+    for (std::size_t i = 0; i < before.size(); ++i) EXPECT_LT((s.x(i) - before[i]).norm(), 1e-3 * radius);
+  }
+}
