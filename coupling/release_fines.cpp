@@ -22,7 +22,7 @@ int place_or_throw(const dem::Carriers& carriers, std::int64_t id) {
 /// Puts `amount` (by place) into the cells, in every set of scalars.
 void put_into_air(const Stencils& stencils, const std::vector<double>& amount, Mechanism mechanism,
                   lbm::ScalarFields& fields) {
-  for_each_by_slab(stencils, [&](int, const Stencil& stencil) {
+  for_each_by_tile(stencils, [&](int, const Stencil& stencil) {
     const double fines = amount[stencil.carrier];
     if (fines == 0.0) return;
     for (int set = 0; mechanisms * set < fields.scalars(); ++set) {
@@ -50,6 +50,7 @@ void FinesRelease::begin(std::size_t carriers) {
 void FinesRelease::by_contacts(std::span<const dem::ContactBegun> begun, const std::optional<double>& first_motion,
                                const dem::Carriers& carriers, const micromodels::FinesModels& models,
                                const CellIndex& cells, Fines& fines, lbm::ScalarFields& fields) {
+  taken_.assign(begun.size(), Taken{});
   if (begun.empty() || !first_motion) return;
   places_.clear();
   for (const dem::ContactBegun& contact : begun) {
@@ -61,6 +62,7 @@ void FinesRelease::by_contacts(std::span<const dem::ContactBegun> begun, const s
   stencils_.build(cells, carriers.position, carriers.radius, places_);
   begin(carriers.size());
 
+  std::size_t contact_index = 0;
   const auto lose = [&](std::int64_t id, Mechanism mechanism, int triangle, const auto& ask) {
     const int place = place_or_throw(carriers, id);
     if (!in_air_[place]) {
@@ -71,12 +73,15 @@ void FinesRelease::by_contacts(std::span<const dem::ContactBegun> begun, const s
     const Taken taken = take(asked.to_air, asked.to_wall, fines.left[id]);
     amount_[static_cast<int>(mechanism)][place] += taken.air;
     fines.to_air[static_cast<int>(mechanism)].add(taken.air);
+    taken_[contact_index].air += taken.air;
+    taken_[contact_index].wall += taken.wall;
     if (taken.wall > 0.0) {
       fines.stuck.at(triangle) += taken.wall;
       fines.to_wall.add(taken.wall);
     }
   };
-  for (const dem::ContactBegun& contact : begun) {
+  for (contact_index = 0; contact_index < begun.size(); ++contact_index) {
+    const dem::ContactBegun& contact = begun[contact_index];
     if (contact.time < *first_motion) continue;
     const double angle = angle_to_surface(contact);
     if (contact.b < 0) {

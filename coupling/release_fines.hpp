@@ -27,6 +27,9 @@ class FinesRelease {
                    const dem::Carriers& carriers, const micromodels::FinesModels& models, const CellIndex& cells,
                    Fines& fines, lbm::ScalarFields& fields);
 
+  /// What each contact of the last by_contacts() took, of both partners together; one entry a contact.
+  const std::vector<Taken>& taken() const { return taken_; }
+
   /// Fines blown off during `duration` [s] at the slip speeds `slip` [m/s] (by place), for the carriers in `stencils`.
   /// What was taken is given to the air where the carrier is now: call it once each scalar step, not each air step.
   void by_drag(const Stencils& stencils, std::span<const double> slip, double duration, const dem::Carriers& carriers,
@@ -36,6 +39,7 @@ class FinesRelease {
   void begin(std::size_t carriers);
 
   Stencils stencils_;
+  std::vector<Taken> taken_;                            // by contact
   std::vector<int> places_;                             // of the carriers that take part
   std::vector<char> in_air_;                            // by place
   std::array<std::vector<double>, mechanisms> amount_;  // to the air, by place

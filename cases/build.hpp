@@ -1,0 +1,39 @@
+#pragma once
+// From a checked Case to a simulation that is ready to step.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cases/case.hpp"
+#include "cases/surface.hpp"
+#include "coupling/state.hpp"
+#include "lbm/geometry/triangle_tree.hpp"
+#include "lbm/geometry/voxelize.hpp"
+
+namespace puffin::cases {
+
+/// Everything a run needs. `models` and `state` are the simulation; the rest is for those who report on it.
+struct Simulation {
+  Case description;
+  Surface surface;
+  std::shared_ptr<const lbm::geometry::TriangleTree> tree;
+  lbm::geometry::Voxels voxels;  // empty without a lattice
+  lbm::geometry::Pockets pockets;
+  double dx = 0.0;               // [m]
+  double reference_speed = 0.0;  // [m/s]
+  double dose_mass = 0.0;        // carriers with their fines [kg]
+  std::string dose;              // one line on how the carriers lie at the start
+  coupling::Models models;
+  coupling::State state;
+};
+
+/// Throws CaseError (unknown patches), GeometryError, StlError, GeneratorError, std::invalid_argument with a remedy.
+std::unique_ptr<Simulation> build(const Case& c);
+
+// The parts, in their order; each adds to the simulation.
+void build_air(Simulation& s);
+void build_carriers(Simulation& s);
+void build_fines(Simulation& s);
+
+}  // namespace puffin::cases

@@ -1,0 +1,211 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "cases/build.hpp"
+#include "cases/derived.hpp"
+#include "cases/dose.hpp"
+#include "cases/micromodel_file.hpp"
+
+namespace puffin::cases {
+
+namespace {
+
+dem::Friction friction_of(const Friction& f) {
+  if (const auto* constant = std::get_if<double>(&f)) return dem::ConstantFriction{*constant};
+  const auto& v = std::get<VelocityFriction>(f);
+  return dem::SpeedFriction{v.stick, v.slip, v.limit, v.slip_speed, v.limit_speed};
+}
+
+dem::Surfaces surfaces_of(const Contact& contact, const Adhesion& adhesion) {
+  dem::Surfaces surfaces;
+  dem::LinearContact linear;
+  linear.restitution = contact.restitution;
+  linear.friction = friction_of(contact.friction);
+  linear.rolling_friction = contact.rolling_friction;
+  linear.stiffness = contact.stiffness;
+  linear.max_overlap = contact.max_overlap;
+  surfaces.contact = linear;
+  if (adhesion.model == AdhesionModel::hamaker) {
+    dem::Hamaker hamaker;
+    hamaker.surface_energy = adhesion.surface_energy;
+    hamaker.hamaker = adhesion.hamaker;
+    hamaker.cutoff_gap = adhesion.cutoff_gap;
+    hamaker.parcel_scaling = adhesion.parcel_scaling == ParcelScaling::ddpm     ? dem::ParcelScaling::ddpm
+                             : adhesion.parcel_scaling == ParcelScaling::energy ? dem::ParcelScaling::energy
+                                                                                : dem::ParcelScaling::mass;
+    surfaces.adhesion = hamaker;
+  }
+  return surfaces;
+}
+
+/// Centre and equivalent diameter of the lowest part of a patch that faces down (against the carriers' weight).
+struct Floor {
+  Vec3 centre = Vec3::Zero();
+  double diameter = 0.0;
+};
+
+Floor floor_of(const Surface& surface, const std::string& patch, const Vec3& gravity) {
+  const Vec3 down = gravity.norm() > 0.0 ? Vec3(gravity.normalized()) : Vec3(-Vec3::UnitZ());
+  const int wanted = surface.patches.find(patch);
+  const auto faces_down = [&](int t) { return surface.mesh.area_vector(t).normalized().dot(down) > 0.99; };
+  const auto depth = [&](int t) {
+    return down.dot(surface.mesh.corner(t, 0) + surface.mesh.corner(t, 1) + surface.mesh.corner(t, 2)) / 3.0;
+  };
+  double lowest = -1e300;
+  for (int t = 0; t < static_cast<int>(surface.mesh.triangles.size()); ++t)
+    if (surface.patches.of_triangle[t] == wanted && faces_down(t)) lowest = std::max(lowest, depth(t));
+  if (lowest == -1e300)
+    throw std::invalid_argument("carriers.fill.at: the patch '" + patch +
+                                "' has no face that carriers can lie on; give a point [x, y, z] instead");
+  Floor floor;
+  double area = 0.0;
+  const double tolerance = 1e-6 + 1e-3 * std::abs(lowest);
+  for (int t = 0; t < static_cast<int>(surface.mesh.triangles.size()); ++t) {
+    if (surface.patches.of_triangle[t] != wanted || !faces_down(t) || depth(t) < lowest - tolerance) continue;
+    const double a = surface.mesh.area(t);
+    area += a;
+    floor.centre += a / 3.0 * (surface.mesh.corner(t, 0) + surface.mesh.corner(t, 1) + surface.mesh.corner(t, 2));
+  }
+  floor.centre /= area;
+  floor.diameter = 2.0 * std::sqrt(area / std::numbers::pi);
+  return floor;
+}
+
+Dose dose_of(const Simulation& s) {
+  const Carriers& c = *s.description.carriers;
+  DoseSpec spec;
+  spec.shape = c.fill->shape == FillShape::cube   ? DoseShape::cube
+               : c.fill->shape == FillShape::file ? DoseShape::file
+                                                  : DoseShape::cylinder;
+  spec.carriers = c.count;
+  spec.parcel = c.parcel;
+  spec.diameter = c.diameter;
+  spec.density = c.density;
+  spec.gap = c.fill->gap;
+  spec.jitter = c.fill->jitter;
+  spec.seed = s.description.numerics.seed;
+  spec.extent_of = c.fill->extent_of;
+  spec.file = c.fill->file;
+  if (const auto* patch = std::get_if<std::string>(&c.fill->at)) {
+    const Floor floor = floor_of(s.surface, *patch, c.gravity);
+    spec.floor = floor.centre;
+    spec.floor_diameter = floor.diameter;
+  } else {
+    spec.floor = std::get<Vec3>(c.fill->at);
+    // A cylinder as high as it is wide, if nothing bounds it.
+    const double pitch = (1.0 + spec.gap) * parcel_diameter(c.diameter, c.parcel);
+    spec.floor_diameter = pitch * std::cbrt(4.0 / std::numbers::pi * static_cast<double>(c.count) / c.parcel) * 1.1;
+  }
+  const auto& walls = *s.models.walls;
+  return place_dose(
+      spec, [&](const Vec3& x) { return s.tree->inside(x); }, [&](const Vec3& x) { return walls.clearance(x, 1.0); });
+}
+
+}  // namespace
+
+void build_carriers(Simulation& s) {
+  const Carriers& c = *s.description.carriers;
+  coupling::Models& m = s.models;
+  m.carriers.carrier = surfaces_of(c.contact, c.adhesion);
+  m.carriers.wall = surfaces_of(c.wall_contact, c.wall_adhesion);
+  m.carriers.gravity = c.gravity;
+  m.carriers.rotation = c.rotation;
+  m.carriers.on_wall = c.wall_contact.on_wall == OnWall::stick ? dem::OnWall::stick : dem::OnWall::bounce;
+  m.drag = c.drag == Drag::none        ? coupling::DragLaw(coupling::NoDrag{})
+           : c.drag == Drag::di_felice ? coupling::DragLaw(coupling::DiFelice{})
+           : c.drag == Drag::beetstra  ? coupling::DragLaw(coupling::Beetstra{})
+                                       : coupling::DragLaw(coupling::SchillerNaumann{});
+  m.volume_fraction =
+      c.volume_fraction == VolumeFraction::none ? coupling::VolumeFraction::none : coupling::VolumeFraction::in_drag;
+  m.two_way = c.two_way;
+  m.carriers_start = c.start;
+
+  // Openings of the geometry: those of the air, and by name where there is no air to tell.
+  std::vector<int> openings;
+  m.opening_of_triangle.assign(s.surface.mesh.triangles.size(), -1);
+  for (std::size_t t = 0; t < s.surface.mesh.triangles.size(); ++t) {
+    const int patch = s.surface.patches.of_triangle[t];
+    const auto& drive = m.patches[patch];
+    const bool named = s.description.air.model != AirModel::lbm && (drive.patch == "inlet" || drive.patch == "outlet");
+    if (c.outside == Outside::remove && (drive.is_inlet || drive.is_outlet || named)) {
+      openings.push_back(static_cast<int>(t));
+      m.opening_of_triangle[t] = patch;
+    }
+  }
+  m.walls = std::make_shared<const coupling::MeshWalls>(s.tree, openings);
+
+  std::vector<dem::Carrier> carriers;
+  if (c.fill) {
+    const Dose dose = dose_of(s);
+    s.dose = dose.description;
+    for (std::size_t p = 0; p < dose.positions.size(); ++p) {
+      dem::Carrier carrier;
+      carrier.id = static_cast<std::int64_t>(p);
+      carrier.position = dose.positions[p];
+      carrier.radius = dose.radius[p];
+      carrier.carriers = c.parcel;
+      carrier.single_radius = dose.radius[p] / std::cbrt(static_cast<double>(c.parcel));
+      const double bare = carrier_mass(2.0 * carrier.single_radius, c.density);
+      carrier.mass = c.parcel * bare * (1.0 + c.fines_each * c.fine_mass_ratio);
+      carriers.push_back(carrier);
+    }
+  } else {
+    s.dose = std::to_string(c.list.size()) + " carriers listed one by one";
+    for (const ListedCarrier& listed : c.list) {
+      dem::Carrier carrier;
+      carrier.id = static_cast<std::int64_t>(carriers.size());
+      carrier.position = listed.position;
+      carrier.velocity = listed.velocity;
+      carrier.spin = c.rotation ? listed.spin : Vec3(Vec3::Zero());
+      carrier.radius = carrier.single_radius = 0.5 * listed.diameter;
+      carrier.mass = carrier_mass(listed.diameter, listed.density) * (1.0 + c.fines_each * c.fine_mass_ratio);
+      carriers.push_back(carrier);
+    }
+  }
+  dem::add(carriers, s.state.carriers);
+  for (const auto& carrier : carriers) s.dose_mass += carrier.mass;
+  if (c.start > 0.0)
+    for (auto& rest : s.state.carriers.carriers.rest) rest = dem::Rest::held;
+  const std::size_t triangles = s.surface.mesh.triangles.size();
+  s.state.collisions = coupling::Collisions(s.state.carriers.carriers, triangles);
+  s.state.first_motion = coupling::FirstMotion(s.state.carriers.carriers);
+  s.state.fines = coupling::Fines(s.state.carriers.carriers, s.description.fines ? c.fines_each : 0.0, triangles);
+}
+
+void build_fines(Simulation& s) {
+  const Fines& f = *s.description.fines;
+  if (!f.micromodels.empty()) s.models.fines = read_micromodels(f.micromodels);
+  if (!s.state.air) return;
+  const lbm::Air& air = *s.state.air;
+  s.state.routes = lbm::find_routes(air, s.state.fluxes);
+  std::vector<int> opening_patch(air.rows.slots(), -1);
+  for (const auto* list : {&air.links.inlets, &air.links.outlets})
+    for (const auto& link : *list) {
+      const auto& run = air.rows.runs()[link.run];
+      for (const auto& o : s.state.routes.openings)
+        if (o.slot == link.slot && o.direction == link.direction) {
+          const int axis_direction = 2 * o.axis + (o.sign > 0 ? 1 : 2);
+          opening_patch[link.slot + lbm::neighbour_offset(run, axis_direction)] = link.patch;
+        }
+    }
+  const int sets = static_cast<int>(f.scalars.size());
+  const int patches = static_cast<int>(s.models.patches.size());
+  s.state.scalars = lbm::ScalarFields(air.rows, coupling::mechanisms * sets, opening_patch);
+  s.state.budget = lbm::ScalarBudget(air.rows, coupling::mechanisms * sets, patches);
+  for (const Scalar& scalar : f.scalars) {
+    lbm::ScalarLaw law;
+    law.scheme = scalar.scheme == ScalarScheme::upwind     ? lbm::Scheme::upwind
+                 : scalar.scheme == ScalarScheme::minmod   ? lbm::Scheme::minmod
+                 : scalar.scheme == ScalarScheme::van_leer ? lbm::Scheme::van_leer
+                                                           : lbm::Scheme::mc;
+    law.wall = scalar.wall == ScalarWall::absorb ? lbm::WallRule::absorb : lbm::WallRule::reflect;
+    for (int m = 0; m < coupling::mechanisms; ++m) {
+      s.models.scalars.scalar.push_back(law);
+      s.models.diffusion.push_back(scalar.diffusion / s.description.air.density);
+    }
+  }
+}
+
+}  // namespace puffin::cases

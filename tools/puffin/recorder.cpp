@@ -1,0 +1,211 @@
+#include "tools/puffin/recorder.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/puffin/frames_of.hpp"
+
+namespace puffin::tools {
+
+using coupling::Vec3;
+
+output::HistoryRow history_row(const cases::Simulation& s, const DropReader& drops) {
+  output::HistoryRow row;
+  const coupling::State& state = s.state;
+  row.time = state.time;
+  row.dt = state.scale.dt;
+  const DropReading drop = drops.read(s);
+  row.flow_rate = drop.flow_rate;
+  row.static_drop = drop.static_drop;
+  row.total_to_static_drop = drop.total_to_static_drop;
+  const auto& c = state.carriers.carriers;
+  for (std::size_t p = 0; p < c.size(); ++p) {
+    row.carriers_in += c.carriers[p];
+    if (c.rest[p] == dem::Rest::asleep) row.carriers_asleep += c.carriers[p];
+  }
+  for (const auto& d : state.departures) row.carriers_emitted += d.carriers;
+  if (state.scalars.scalars() > 0) {
+    const coupling::Ledger ledger = coupling::ledger(state.fines, state.scalars, state.budget, 0);
+    row.FFE = ledger.FFE();
+    row.FFW = ledger.FFW();
+    row.FFCR = ledger.FFCR();
+    row.FFCE = ledger.FFCE();
+    row.in_air = ledger.air_fraction();
+    row.ledger_error = ledger.error();
+  }
+  return row;
+}
+
+Recorder::Recorder(const cases::Simulation& s, const output::OutputFolder& folder) : folder_(folder), drops_(s) {
+  const cases::Output& out = s.description.output;
+  const auto table = [&](const char* name, const std::vector<std::string>& columns) {
+    return std::make_unique<output::CsvFile>(folder.file(name), columns);
+  };
+  statistics_.interval = out.statistics;
+  carriers_.interval = s.description.carriers ? out.carriers : cases::never;
+  carriers_.next = std::isfinite(carriers_.interval) ? 0.0 : cases::never;
+  history_csv_ = table("history.csv", output::history_columns());
+  std::vector<output::StatsColumn> columns;
+  for (std::size_t k = 0; k < output::history_columns().size(); ++k)
+    columns.push_back({output::history_columns()[k], output::history_units()[k]});
+  stats_ = std::make_unique<output::StatsFile>(folder.file("stats.h5"), columns);
+  if (!out.probes.empty()) probes_csv_ = table("probes.csv", output::probe_columns());
+  if (!out.planes.empty()) planes_csv_ = table("planes.csv", output::plane_columns());
+  if (!out.forces.empty()) forces_csv_ = table("forces.csv", output::force_columns());
+  if (s.description.carriers) {
+    if (!s.description.carriers->list.empty()) tracks_csv_ = table("tracks.csv", output::track_columns());
+    if (out.events) events_ = std::make_unique<output::EventsFile>(folder.file("events.h5"));
+    if (std::isfinite(carriers_.interval))
+      carriers_vtk_ = std::make_unique<output::VtkSeries>(folder.file("vtk"), "carriers");
+  }
+  walls_vtk_ = std::make_unique<output::VtkSeries>(folder.file("vtk"), "walls");
+  for (const auto& field : out.fields) fields_.push_back({field.every, 0.0});
+  if (s.state.air && !out.fields.empty())
+    fields_vtk_ = std::make_unique<output::VtkSeries>(folder.file("vtk"), "fields");
+  lines_.resize(out.lines.size());
+  walls_vtk_->append(0.0, wall_frame(s));
+}
+
+double Recorder::next() const {
+  double t = std::min(statistics_.next, carriers_.next);
+  for (const auto& f : fields_)
+    if (fields_vtk_) t = std::min(t, f.next);
+  return t;
+}
+
+void Recorder::take_events(const cases::Simulation& s) {
+  if (!events_) return;
+  const auto& events = s.state.events;
+  const auto& taken = s.state.release.taken();
+  for (std::size_t n = 0; n < events.begun.size() && n < taken.size(); ++n)
+    if (taken[n].air + taken[n].wall > 0.0) {
+      const auto& c = events.begun[n];
+      moved_[{c.a, c.b, c.triangle, c.time}] = taken[n];
+    }
+  std::vector<output::EventRecord> records;
+  for (const auto& c : events.ended) {
+    output::EventRecord r;
+    r.time_start = c.time_start;
+    r.time_end = c.time_end;
+    r.a = static_cast<std::int32_t>(c.a);
+    r.b = static_cast<std::int32_t>(c.b);
+    r.triangle = c.triangle;
+    r.normal_speed = c.normal_speed;
+    r.tangential_speed = c.tangential_speed;
+    r.energy = c.energy;
+    r.max_force = c.max_force;
+    r.max_overlap = c.max_overlap;
+    if (const auto found = moved_.find({c.a, c.b, c.triangle, c.time_start}); found != moved_.end()) {
+      r.detached = found->second.air + found->second.wall;
+      r.attached = found->second.wall;
+      moved_.erase(found);
+    }
+    records.push_back(r);
+  }
+  if (!records.empty()) events_->append(records);
+}
+
+void Recorder::record(const cases::Simulation& s) {
+  const double t = s.state.time;
+  if (statistics_.due(t)) {
+    record_statistics(s);
+    statistics_.done(t);
+  }
+  if (carriers_.due(t)) {
+    record_carriers(s);
+    carriers_.done(t);
+  }
+  for (std::size_t k = 0; k < fields_.size(); ++k)
+    if (fields_vtk_ && fields_[k].due(t)) {
+      record_fields(s, k);
+      fields_[k].done(t);
+    }
+}
+
+void Recorder::record_statistics(const cases::Simulation& s) {
+  const output::HistoryRow row = history_row(s, drops_);
+  history_.push_back(row);
+  output::append(*history_csv_, row);
+  stats_->append(output::values(row));
+  if (!s.state.air) return;
+  const cases::Output& out = s.description.output;
+  const double t = s.state.time;
+  for (const auto& probe : out.probes)
+    if (const auto r = read_point(s, probe.at))
+      output::append(*probes_csv_,
+                     output::ProbeRow{t, probe.name, r->velocity[0], r->velocity[1], r->velocity[2], r->pressure});
+  for (const auto& plane : out.planes) {
+    const PlaneReading r = read_plane(s, plane.axis, plane.at);
+    output::append(*planes_csv_, output::PlaneRow{t, plane.name, r.flow_rate, r.static_pressure, r.total_pressure});
+  }
+  for (const auto& patch : out.forces) {
+    const auto f = lbm::force_on_patch(*s.state.air, s.surface.patches.find(patch));
+    const double unit = s.state.scale.force();
+    output::append(*forces_csv_, output::ForceRow{t, patch, {f[0] * unit, f[1] * unit, f[2] * unit}});
+  }
+  for (std::size_t k = 0; k < out.lines.size(); ++k) {
+    if (t < out.lines[k].average_from) continue;
+    auto& sums = lines_[k];
+    sums.sum.resize(out.lines[k].points);
+    ++sums.samples;
+    for (int n = 0; n < out.lines[k].points; ++n) {
+      const double share = out.lines[k].points > 1 ? static_cast<double>(n) / (out.lines[k].points - 1) : 0.0;
+      const auto r = read_point(s, out.lines[k].from + share * (out.lines[k].to - out.lines[k].from));
+      if (!r) continue;
+      sums.sum[n].velocity += r->velocity;
+      sums.sum[n].pressure += r->pressure;
+    }
+  }
+}
+
+void Recorder::record_carriers(const cases::Simulation& s) {
+  if (carriers_vtk_) carriers_vtk_->append(s.state.time, carrier_frame(s));
+  if (!tracks_csv_) return;
+  const auto& c = s.state.carriers.carriers;
+  for (std::size_t p = 0; p < c.size(); ++p)
+    output::append(*tracks_csv_, output::TrackRow{s.state.time,
+                                                  c.id[p],
+                                                  {c.position[p][0], c.position[p][1], c.position[p][2]},
+                                                  {c.velocity[p][0], c.velocity[p][1], c.velocity[p][2]},
+                                                  {c.spin[p][0], c.spin[p][1], c.spin[p][2]}});
+}
+
+void Recorder::record_fields(const cases::Simulation& s, std::size_t which) {
+  fields_vtk_->append(s.state.time, field_frame(s, s.description.output.fields[which]), static_cast<int>(which));
+}
+
+void Recorder::write_lines(const cases::Simulation& s) {
+  const auto& lines = s.description.output.lines;
+  if (lines.empty()) return;
+  output::CsvFile csv(folder_.file("lines.csv"), output::line_columns());
+  for (std::size_t k = 0; k < lines.size(); ++k)
+    for (std::size_t n = 0; n < lines_[k].sum.size(); ++n) {
+      const double share = lines[k].points > 1 ? static_cast<double>(n) / (lines[k].points - 1) : 0.0;
+      const Vec3 x = lines[k].from + share * (lines[k].to - lines[k].from);
+      const double samples = static_cast<double>(lines_[k].samples);
+      const Vec3 u = lines_[k].sum[n].velocity / samples;
+      output::append(csv, output::LineRow{lines[k].name, (x - lines[k].from).norm(), x[0], x[1], x[2], u[0], u[1], u[2],
+                                          lines_[k].sum[n].pressure / samples, lines_[k].samples});
+    }
+  csv.flush();
+}
+
+void Recorder::write_walls(const cases::Simulation& s) {
+  if (s.description.output.wall_map && s.state.time > 0.0) walls_vtk_->append(s.state.time, wall_frame(s));
+}
+
+void Recorder::finish(const cases::Simulation& s) {
+  if (history_.empty() || history_.back().time < s.state.time) record_statistics(s);
+  if (carriers_vtk_ && (carriers_vtk_->entries().empty() || carriers_vtk_->entries().back().time < s.state.time))
+    record_carriers(s);
+  for (std::size_t k = 0; k < fields_.size(); ++k)
+    if (fields_vtk_ && fields_[k].next - fields_[k].interval < s.state.time * (1.0 - 1e-9)) record_fields(s, k);
+  write_lines(s);
+  write_walls(s);
+  for (auto* csv : {&history_csv_, &probes_csv_, &planes_csv_, &forces_csv_, &tracks_csv_})
+    if (*csv) (*csv)->flush();
+  stats_->flush();
+  if (events_) events_->flush();
+}
+
+}  // namespace puffin::tools

@@ -1,0 +1,22 @@
+#pragma once
+// summary.json from a simulation and its history.
+
+#include <string>
+
+#include "tools/output/summary.hpp"
+#include "tools/puffin/recorder.hpp"
+
+namespace puffin::tools {
+
+/// What only the run loop knows.
+struct RunFacts {
+  std::string state;    // finished | diverged | stopped
+  std::string message;
+  double wall_clock = 0.0;  // [s]
+  double set_up = 0.0, output = 0.0;  // [s]
+  int threads = 0;
+};
+
+output::Summary summarize(const cases::Simulation& s, const Recorder& recorder, const RunFacts& facts);
+
+}  // namespace puffin::tools
