@@ -1,16 +1,18 @@
 // VTK's XML files back to frames, through VTK's own readers.
 
-#include <vtkCallbackCommand.h>
 #include <vtkCell.h>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
 #include <vtkImageData.h>
+#include <vtkLogger.h>
 #include <vtkNew.h>
+#include <vtkOutputWindow.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 #include <vtkStringArray.h>
+#include <vtkStringOutputWindow.h>
 #include <vtkXMLImageDataReader.h>
 #include <vtkXMLPolyDataReader.h>
 
@@ -20,24 +22,37 @@
 namespace puffin::output {
 namespace {
 
-/// Reads one file; VTK's own complaints are turned into an OutputError instead of being printed.
+/// Within its scope VTK collects its complaints instead of printing them.
+class VtkQuiet {
+ public:
+  VtkQuiet() : window_(vtkOutputWindow::GetInstance()), verbosity_(vtkLogger::GetCurrentVerbosityCutoff()) {
+    vtkOutputWindow::SetInstance(collected_);
+    vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
+  }
+  ~VtkQuiet() {
+    vtkOutputWindow::SetInstance(window_);
+    vtkLogger::SetStderrVerbosity(verbosity_);
+  }
+  VtkQuiet(const VtkQuiet&) = delete;
+  VtkQuiet& operator=(const VtkQuiet&) = delete;
+  bool complained() { return !collected_->GetOutput().empty(); }
+
+ private:
+  vtkNew<vtkStringOutputWindow> collected_;
+  vtkSmartPointer<vtkOutputWindow> window_;
+  vtkLogger::Verbosity verbosity_;
+};
+
+/// Reads one file; VTK's own complaints become an OutputError.
 template <class Reader>
 vtkSmartPointer<Reader> read_xml(const std::filesystem::path& file) {
   if (!std::filesystem::exists(file)) throw OutputError("cannot read " + file.string() + ": there is no such file");
+  VtkQuiet quiet;
   auto reader = vtkSmartPointer<Reader>::New();
-  bool failed = false;
-  vtkNew<vtkCallbackCommand> watch;
-  watch->SetClientData(&failed);
-  watch->SetCallback([](vtkObject*, unsigned long, void* flag, void*) { *static_cast<bool*>(flag) = true; });
-  reader->AddObserver("ErrorEvent", watch);
   reader->SetFileName(file.c_str());
-  if (reader->CanReadFile(file.c_str())) {
-    reader->Update();
-  } else {
-    failed = true;
-  }
-  if (failed) throw OutputError(file.string() + " is damaged or is no VTK file");
-  reader->RemoveAllObservers();
+  const bool readable = reader->CanReadFile(file.c_str());
+  if (readable) reader->Update();
+  if (!readable || quiet.complained()) throw OutputError(file.string() + " is damaged or is no VTK file");
   return reader;
 }
 

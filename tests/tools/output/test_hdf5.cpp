@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <hdf5.h>
 
 #include "tests/tools/output/scratch.hpp"
 #include "tools/output/events_file.hpp"
@@ -50,6 +51,42 @@ TEST(Events, ReadBackInOrderWithEveryMember) {
   const std::vector<EventRecord> back = read_events(folder / "events.h5");
   ASSERT_EQ(back.size(), static_cast<std::size_t>(n));
   for (const int i : {0, 1, 4095, 4096, n - 1}) expect_same(back[i], event(i));
+}
+
+/// One member of the first record, by its name in the file, as another program would read it.
+double member(const std::filesystem::path& file, const char* name) {
+  const hid_t id = H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  const hid_t dataset = H5Dopen2(id, "/events", H5P_DEFAULT);
+  const hid_t type = H5Tcreate(H5T_COMPOUND, sizeof(double));
+  H5Tinsert(type, name, 0, H5T_NATIVE_DOUBLE);
+  double value = -999;
+  EXPECT_GE(H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, &value), 0) << name;
+  H5Tclose(type);
+  H5Dclose(dataset);
+  H5Fclose(id);
+  return value;
+}
+
+TEST(Events, OtherProgramsFindEveryMemberUnderItsName) {
+  const Scratch folder;
+  EventRecord e{.time_start = 1,
+                .time_end = 2,
+                .a = 3,
+                .b = 4,
+                .triangle = 5,
+                .normal_speed = 6,
+                .tangential_speed = 7,
+                .energy = 8,
+                .max_force = 9,
+                .max_overlap = 10,
+                .detached = 11,
+                .attached = 12};
+  { EventsFile(folder / "events.h5").append({&e, 1}); }
+  int expected = 1;
+  for (const char* name : {"time_start", "time_end", "a", "b", "triangle", "normal_speed", "tangential_speed", "energy",
+                           "max_force", "max_overlap", "detached", "attached"}) {
+    EXPECT_EQ(member(folder / "events.h5", name), expected++) << name;
+  }
 }
 
 TEST(Events, AnEmptyFileReadsBackEmpty) {

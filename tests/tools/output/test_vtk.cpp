@@ -85,6 +85,22 @@ TEST(VtkFields, CellsThatAreNotFluidAreBlanked) {
   EXPECT_NE(text_of(folder / "a.vti").find("vtkZLibDataCompressor"), std::string::npos);
 }
 
+TEST(Vtk, ArraysHaveTheNamesOfTheInterface) {
+  const Scratch folder;
+  write_vti(folder / "a.vti", block(0.0f));
+  write_vtp(folder / "c.vtp", some_carriers());
+  write_vtp(folder / "w.vtp", two_triangles());
+  const auto names = [&](const char* file, const std::vector<std::string>& wanted) {
+    const std::string text = text_of(folder / file);
+    for (const auto& name : wanted) {
+      EXPECT_NE(text.find("Name=\"" + name + "\""), std::string::npos) << file << ' ' << name;
+    }
+  };
+  names("a.vti", {"velocity", "pressure", "fines_L-Base"});
+  names("c.vtp", {"id", "diameter", "velocity", "spin", "fines", "asleep"});
+  names("w.vtp", {"fines", "hits", "energy", "patch"});
+}
+
 TEST(VtkFields, ArraysOfTheWrongLengthAreRefused) {
   const Scratch folder;
   FieldFrame frame = block(0.0f);
@@ -182,7 +198,12 @@ TEST(Vtk, AMissingOrDamagedFileIsAnOutputError) {
   const Scratch folder;
   EXPECT_THROW(read_field_frame(folder / "none.vti"), OutputError);
   std::ofstream(folder / "bad.vti") << "<VTKFile type=\"ImageData\"><half";
+  testing::internal::CaptureStderr();
   EXPECT_THROW(read_field_frame(folder / "bad.vti"), OutputError);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  write_vti(folder / "cut.vti", block(0.0f));
+  std::filesystem::resize_file(folder / "cut.vti", std::filesystem::file_size(folder / "cut.vti") - 100);
+  EXPECT_THROW(read_field_frame(folder / "cut.vti"), OutputError);
   EXPECT_THROW(read_pvd(folder / "none.pvd"), OutputError);
   EXPECT_THROW(write_vtp("/proc/a.vtp", some_carriers()), OutputError);
 }
