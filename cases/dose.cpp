@@ -1,6 +1,8 @@
 #include "cases/dose.hpp"
 
 #include <algorithm>
+#include <cctype>
+#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
@@ -9,6 +11,8 @@
 #include <random>
 #include <sstream>
 #include <stdexcept>
+#include <system_error>
+#include <utility>
 
 #include "cases/dose_stack.hpp"
 
@@ -53,6 +57,22 @@ void jitter(double amplitude, std::uint64_t seed, std::vector<Vec3>& sites) {
     for (int axis = 0; axis < 3; ++axis) site[axis] += amplitude * draw();
 }
 
+/// The numbers of a comma-separated row; empty if a field is no finite number.
+std::vector<double> numbers_of(const std::string& row) {
+  std::vector<double> numbers;
+  std::istringstream fields(row);
+  for (std::string field; std::getline(fields, field, ',');) {
+    const std::size_t first = field.find_first_not_of(" \t\r"), last = field.find_last_not_of(" \t\r");
+    if (first == std::string::npos) return {};
+    double number = 0.0;
+    const char* const end = field.data() + last + 1;
+    const auto [stop, error] = std::from_chars(field.data() + first, end, number);
+    if (error != std::errc{} || stop != end || !std::isfinite(number)) return {};
+    numbers.push_back(number);
+  }
+  return numbers;
+}
+
 /// Rows x, y, z[, diameter]; empty lines, lines that begin with '#' and one header line are skipped.
 void read_file(const DoseSpec& spec, double default_diameter, Dose& dose) {
   std::ifstream in(spec.file);
@@ -62,20 +82,14 @@ void read_file(const DoseSpec& spec, double default_diameter, Dose& dose) {
   for (int number = 1; std::getline(in, line); ++number) {
     const std::size_t first = line.find_first_not_of(" \t\r");
     if (first == std::string::npos || line[first] == '#') continue;
-    const bool may_be_header = header_allowed;
-    header_allowed = false;
+    const bool may_be_header = std::exchange(header_allowed, false);
     if (may_be_header && std::isalpha(static_cast<unsigned char>(line[first])) != 0) continue;
-    std::replace(line.begin(), line.end(), ',', ' ');
-    std::istringstream row(line);
-    Vec3 p;
-    double diameter = default_diameter;
-    const bool good = static_cast<bool>(row >> p.x() >> p.y() >> p.z());
-    if (good && !(row >> std::ws).eof()) row >> diameter;
-    if (!good || row.fail() || !(row >> std::ws).eof() || !p.allFinite() || !(diameter > 0.0))
+    const std::vector<double> row = numbers_of(line);
+    if (row.size() < 3 || row.size() > 4 || (row.size() == 4 && row[3] <= 0.0))
       throw std::runtime_error("dose: " + spec.file + ":" + std::to_string(number) +
                                ": expected x,y,z or x,y,z,diameter, numbers in metres");
-    dose.positions.push_back(p);
-    dose.radius.push_back(0.5 * diameter);
+    dose.positions.emplace_back(row[0], row[1], row[2]);
+    dose.radius.push_back(0.5 * (row.size() == 4 ? row[3] : default_diameter));
   }
   const auto expected = static_cast<std::size_t>(spec.carriers / spec.parcel);
   if (dose.positions.size() != expected)

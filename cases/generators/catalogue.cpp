@@ -151,6 +151,14 @@ lbm::geometry::TriangleMesh generate(const std::string& kind, const Parameters& 
   return surface.close(values.number("facet_size"));
 }
 
+std::vector<std::string> solids_of(const std::string& kind, const Parameters& parameters) {
+  const Kind& shape = kind_named(kind);
+  Parameters complete = resolve_or_throw(shape, parameters);
+  generators::Surface surface;
+  shape.add_faces(Values(complete), surface);
+  return surface.solids();
+}
+
 KeyPoints key_points(const std::string& kind, const Parameters& parameters) {
   const Kind& shape = kind_named(kind);
   Parameters complete = resolve_or_throw(shape, parameters);

@@ -91,6 +91,10 @@ Parameters resolve_parameters(const std::string& kind, const Parameters& paramet
 /// Throws GeneratorError.
 lbm::geometry::TriangleMesh generate(const std::string& kind, const Parameters& parameters = {});
 
+/// Names of the solids that generate() will give, in order, without building the surface.
+/// Throws GeneratorError.
+std::vector<std::string> solids_of(const std::string& kind, const Parameters& parameters = {});
+
 /// Throws GeneratorError.
 KeyPoints key_points(const std::string& kind, const Parameters& parameters = {});
 

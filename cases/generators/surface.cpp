@@ -149,16 +149,22 @@ double Surface::expected_triangles(double facet_size) const {
   return area / (0.25 * std::sqrt(3.0) * edge * edge) + static_cast<double>(faces_.size());
 }
 
+std::vector<std::string> Surface::solids() const {
+  std::vector<std::string> used;
+  for (std::size_t s = 0; s < solids_.size(); ++s)
+    if (std::any_of(faces_.begin(), faces_.end(), [s](const Face& f) { return f.solid == static_cast<int>(s); }))
+      used.push_back(solids_[s]);
+  return used;
+}
+
 TriangleMesh Surface::close(double facet_size) const {
   if (!(expected_triangles(facet_size) <= largest_surface))
     throw std::length_error("the facet size asks for more than 4 million triangles");
   TriangleMesh mesh;
-  std::vector<int> rank(solids_.size(), -1);  // solids with faces, in the declared order
+  mesh.solids = solids();
+  std::vector<int> rank(solids_.size());
   for (std::size_t s = 0; s < solids_.size(); ++s)
-    if (std::any_of(faces_.begin(), faces_.end(), [s](const Face& f) { return f.solid == static_cast<int>(s); })) {
-      rank[s] = static_cast<int>(mesh.solids.size());
-      mesh.solids.push_back(solids_[s]);
-    }
+    rank[s] = static_cast<int>(std::find(mesh.solids.begin(), mesh.solids.end(), solids_[s]) - mesh.solids.begin());
   double size = 0.0;
   for (const Face& face : faces_)
     for (const Vec3& p : face.loops[0]) size = std::max(size, (p - faces_[0].loops[0][0]).norm());

@@ -22,6 +22,9 @@ class Surface {
   /// normal points out of the fluid); the holes lie inside it, in any direction.
   void add(std::string_view solid, Loop outer, std::vector<Loop> holes = {});
 
+  /// The solids that have faces, in order.
+  std::vector<std::string> solids() const;
+
   /// The closed surface, no edge longer than `facet_size` [m]. The faces keep their shape: subdivision adds corners on
   /// them and swaps diagonals inside them, so the enclosed volume does not depend on facet_size.
   /// Throws std::logic_error if the faces do not close, std::length_error if facet_size asks for more than
