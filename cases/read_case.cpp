@@ -9,6 +9,17 @@
 #include "cases/format/toml_file.hpp"
 
 namespace puffin::cases {
+namespace {
+
+/// Taylor-Green vortices and shear layers without an amplitude move at the reference speed.
+void complete_initial_speed(Case& c, format::Findings& findings) {
+  const bool vortices = c.air.initial == InitialField::taylor_green || c.air.initial == InitialField::shear_layer;
+  if (!vortices || !c.numerics.reference_speed || c.air.initial_velocity.norm() > 0.0) return;
+  c.air.initial_velocity = Vec3(*c.numerics.reference_speed, 0.0, 0.0);
+  findings.source("air.initial_velocity", {Origin::derived, "numerics.reference_speed"});
+}
+
+}  // namespace
 
 Override parse_override(std::string_view text) {
   const std::size_t equals = text.find('=');
@@ -18,6 +29,21 @@ Override parse_override(std::string_view text) {
   while (!key.empty() && key.back() == ' ') key.pop_back();
   value.erase(0, value.find_first_not_of(' '));
   return {key, value};
+}
+
+std::map<std::string, Parameter> parse_parameters(const std::string& kind, const std::vector<Override>& overrides) {
+  toml::table root;
+  format::Findings findings(kind, "");
+  for (const Override& o : overrides) try {
+      format::apply_override(root, o);
+    } catch (const std::invalid_argument& e) {
+      findings.problem(o.key, {"--set " + o.key, 0, 0}, e.what());
+    }
+  std::map<std::string, Parameter> parameters;
+  format::TomlFields fields(root, "", findings, {});
+  format::describe_parameters(fields, kind, parameters);
+  if (!findings.problems().empty()) throw CaseError(findings.sorted_problems());
+  return parameters;
 }
 
 Case parse_case(std::string_view toml_text, const std::filesystem::path& file, const std::vector<Override>& overrides,
@@ -35,6 +61,7 @@ Case parse_case(std::string_view toml_text, const std::filesystem::path& file, c
   format::TomlFields fields(root, "", findings, file.parent_path());
   format::describe(fields, c);
   fields.finish();
+  complete_initial_speed(c, findings);
   format::check_consistency(c, findings);
   if (!findings.problems().empty()) throw CaseError(findings.sorted_problems());
   c.provenance = findings.sources();

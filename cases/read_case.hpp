@@ -2,6 +2,7 @@
 // Case file (TOML) -> Case.
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,5 +32,9 @@ Case read_case(const std::filesystem::path& file, const std::vector<Override>& o
 /// The same for a text in memory; `file` names it in messages and anchors relative paths.
 Case parse_case(std::string_view toml, const std::filesystem::path& file, const std::vector<Override>& overrides = {},
                 std::string_view preset = {});
+
+/// Parameters of a generator from overrides alone, with units, names and ranges checked as in a case file.
+/// Throws CaseError with every problem, std::invalid_argument for an unknown kind.
+std::map<std::string, Parameter> parse_parameters(const std::string& kind, const std::vector<Override>& overrides);
 
 }  // namespace puffin::cases

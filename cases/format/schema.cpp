@@ -36,12 +36,7 @@ void describe_generated(Fields& io, Generated& g) {
     return;
   }
   g.kind = words[kind].name;
-  io.section(g.kind, [&](Fields& f) {
-    f.everything(
-        g.parameters, [&](const std::string& name) { return unit_of_parameter(g.kind, name); }, false);
-    if (!f.reading()) return;
-    for (const ParameterProblem& p : check_parameters(g.kind, g.parameters)) f.problem(p.parameter, p.message);
-  });
+  io.section(g.kind, [&](Fields& f) { describe_parameters(f, g.kind, g.parameters); });
 }
 
 void describe_stl(Fields& io, StlFile& s) {
@@ -53,6 +48,13 @@ void describe_stl(Fields& io, StlFile& s) {
 }
 
 }  // namespace
+
+void describe_parameters(Fields& io, const std::string& kind, std::map<std::string, Parameter>& parameters) {
+  io.everything(
+      parameters, [&](const std::string& name) { return unit_of_parameter(kind, name); }, false);
+  if (!io.reading()) return;
+  for (const ParameterProblem& p : check_parameters(kind, parameters)) io.problem(p.parameter, p.message);
+}
 
 void describe(Fields& io, Geometry& g) {
   const bool stl = io.has("stl", std::holds_alternative<StlFile>(g.source));

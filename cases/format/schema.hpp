@@ -15,4 +15,7 @@ void describe(Fields& io, Numerics& n, AirModel air);                          /
 void describe(Fields& io, Carriers& c);                                        // schema_carriers.cpp
 void describe(Fields& io, Fines& f, const std::optional<Carriers>& carriers);  // schema_carriers.cpp
 
+/// The parameters of a generator: everything in the table is one.
+void describe_parameters(Fields& io, const std::string& kind, std::map<std::string, Parameter>& parameters);
+
 }  // namespace puffin::cases::format

@@ -1,0 +1,118 @@
+#include "cases/assessment.hpp"
+
+#include <array>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+
+#include "cases/units.hpp"
+#include "lbm/geometry/voxel_report.hpp"
+
+namespace puffin::cases {
+namespace {
+
+namespace geometry = lbm::geometry;
+
+/// Length of the edges between a patch and the rest of the surface.
+double perimeter_of(const Surface& s, const std::string& patch) {
+  const int wanted = s.patches.find(patch);
+  std::map<std::array<int, 2>, int> uses;  // edge -> triangles of the patch at it
+  for (std::size_t t = 0; t < s.mesh.triangles.size(); ++t)
+    for (int k = 0; k < 3 && s.patches.of_triangle[t] == wanted; ++k) {
+      const int a = s.mesh.triangles[t][k], b = s.mesh.triangles[t][(k + 1) % 3];
+      ++uses[{std::min(a, b), std::max(a, b)}];
+    }
+  double length = 0.0;
+  for (const auto& [edge, count] : uses)
+    if (count == 1) length += (s.mesh.vertices[edge[0]] - s.mesh.vertices[edge[1]]).norm();
+  return length;
+}
+
+/// Bytes of a cell: 19 populations, four moments, the force and the eddy length in floats, the layout; plus what the
+/// ghosts and the padding add for a narrow device (measured factor 1.6 of slots over cells).
+double bytes_a_cell(const Case& c) {
+  const double populations = 19.0 * (c.numerics.precision == Precision::float64 ? 8.0 : 4.0);
+  const double scalars = c.fines ? 4.0 * 8.0 * static_cast<double>(c.fines->scalars.size()) : 0.0;
+  return 1.6 * (populations + 4.0 * 8.0 + 30.0 + scalars);
+}
+
+double memory_of(const Case& c, const Assessment& a, const Surface& s) {
+  constexpr double program = 60e6, triangle = 400.0, parcel = 600.0, link = 24.0;
+  const double parcels = c.carriers ? static_cast<double>(c.carriers->count) / c.carriers->parcel : 0.0;
+  const double surface_cells = a.lattice ? s.area / (a.lattice->dx * a.lattice->dx) : 0.0;
+  return program + triangle * static_cast<double>(s.mesh.triangles.size()) + parcel * parcels +
+         bytes_a_cell(c) * static_cast<double>(a.cells_fluid) + 5.0 * link * surface_cells;
+}
+
+void warn(const Case& c, Assessment& a) {
+  const auto say = [&](const std::string& text) { a.warnings.push_back(text); };
+  if (!a.lattice) return;
+  const LatticeNumbers& n = *a.lattice;
+  if (n.mach / std::sqrt(3.0) > 0.15)
+    say("the lattice speed is above 0.15: density errors grow with its square, and runs may diverge");
+  if (n.tau > 1.0) say("tau is above 1: the walls become inaccurate; lower lattice_speed or dx");
+  const double cell_reynolds = a.reference_speed * n.dx * c.air.density / c.air.viscosity;
+  if (cell_reynolds > 100.0 && c.numerics.les == Les::none)
+    say("the cell Reynolds number is " + std::to_string(std::lround(cell_reynolds)) + " and les is \"none\"");
+  const double gap_cells = a.narrowest_gap / n.dx;
+  if (a.narrowest_gap > 0.0 && gap_cells < 4.0)
+    say("the narrowest gap, " + format_quantity(a.narrowest_gap, unit::length) + ", has fewer than 4 cells");
+  if (std::abs(a.volume_voxels / a.volume - 1.0) > 0.05) say("the voxels miss the volume by more than 5 %: lower dx");
+  if (c.carriers && c.carriers->diameter * std::cbrt(c.carriers->parcel) > 1.5 * n.dx)
+    say("the parcels are larger than the cells: the air they disturb is not the air they should feel");
+}
+
+}  // namespace
+
+std::array<bool, 3> periodic_directions(const Case& c, const Surface& s) {
+  std::array<bool, 3> periodic{false, false, false};
+  for (const Boundary& b : c.air.boundaries) {
+    if (b.type != BoundaryType::periodic) continue;
+    const int wanted = s.patches.find(b.patch);
+    Vec3 normal = Vec3::Zero();
+    for (std::size_t t = 0; t < s.mesh.triangles.size(); ++t)
+      if (s.patches.of_triangle[t] == wanted) normal += s.mesh.area_vector(static_cast<int>(t));
+    int axis = 0;
+    normal.cwiseAbs().maxCoeff(&axis);
+    periodic[axis] = true;
+  }
+  return periodic;
+}
+
+Assessment assess(const Case& c, const Surface& s) {
+  Assessment a;
+  a.volume = s.volume;
+  a.area = s.area;
+  const AreaOf area_of = [&](const std::string& patch) { return s.area_of(patch); };
+  for (const Boundary& b : c.air.boundaries) {
+    if (b.type != BoundaryType::velocity_inlet) continue;
+    Air alone = c.air;
+    alone.boundaries = {b};
+    const double area = s.area_of(b.patch), speed = largest_mean_speed(alone, c.stop.time, area_of);
+    a.inlets.push_back({b.patch, area, speed, reynolds(c.air, speed, 4.0 * area / perimeter_of(s, b.patch))});
+  }
+  if (c.air.model == AirModel::lbm) {
+    a.reference_speed = reference_speed(c, area_of);
+    a.lattice = lattice_numbers(c, cell_size(c.numerics, s.volume), a.reference_speed, area_of);
+    const std::vector<std::string> openings = openings_of(c);
+    geometry::VoxelizeOptions options;
+    options.periodic = periodic_directions(c, s);
+    if (!openings.empty()) options.openings = s.marked(openings);
+    const geometry::TriangleTree tree(s.mesh);
+    geometry::Pockets dropped;
+    try {
+      const geometry::Voxels voxels = geometry::voxelize(tree, a.lattice->dx, options, &dropped);
+      const geometry::VoxelReport report = geometry::voxel_report(tree, voxels, s.patches, openings, dropped);
+      a.cells_fluid = static_cast<std::int64_t>(report.cells_fluid);
+      a.volume_voxels = report.volume_voxels;
+      a.narrowest_gap = report.narrowest_gap;
+    } catch (const std::invalid_argument& e) {
+      throw geometry::GeometryError(e.what());
+    }
+  }
+  a.memory = memory_of(c, a, s);
+  warn(c, a);
+  return a;
+}
+
+}  // namespace puffin::cases

@@ -1,0 +1,55 @@
+// puffin check: configuration, geometry, stability; every problem at once, nothing is run.
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "cases/micromodel_file.hpp"
+#include "cases/write_case.hpp"
+#include "tools/puffin/arguments.hpp"
+#include "tools/puffin/assessment_text.hpp"
+#include "tools/puffin/commands.hpp"
+#include "tools/puffin/console.hpp"
+#include "tools/puffin/exit_codes.hpp"
+
+namespace puffin::tools {
+namespace {
+
+int check_case(const CaseArguments& a) {
+  const cases::Case c = a.read();
+  if (c.fines && !c.fines->micromodels.empty()) cases::read_micromodels(c.fines->micromodels);
+  const cases::Surface surface = cases::load_surface(c, true);
+  if (auto problems = cases::unknown_patches(c, surface.patches); !problems.empty()) {
+    for (cases::Problem& p : problems) p.file = a.file.string();
+    throw cases::CaseError(std::move(problems));
+  }
+  cases::Assessment assessment = cases::assess(c, surface);
+  for (const lbm::geometry::Defect& d : surface.defects) assessment.warnings.push_back(d.kind + ": " + d.message);
+  const std::vector<std::string> assumed = cases::assumptions(c);
+  if (a.json) {
+    nlohmann::json j = assessment_json(c, assessment);
+    j["ok"] = true;
+    j["problems"] = nlohmann::json::array();
+    j["assumptions"] = assumed;
+    print(j.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+    return ok;
+  }
+  print(a.file.string() + ": " + c.name + ": ok");
+  print_assessment(c, assessment);
+  for (const std::string& text : assumed) print("assumed    " + text);
+  return ok;
+}
+
+}  // namespace
+
+namespace commands {
+Command check() {
+  return {"check", "configuration, geometry and stability: every problem at once, nothing is run",
+          [](CLI::App& app) -> Action {
+            auto a = std::make_shared<CaseArguments>();
+            a->add_to(app);
+            return [a] { return check_case(*a); };
+          }};
+}
+}  // namespace commands
+
+}  // namespace puffin::tools

@@ -1,0 +1,25 @@
+#pragma once
+// Where words go: results to stdout, everything else to stderr.
+
+#include <string>
+
+namespace puffin::tools {
+
+/// Colours on a terminal only, and never with NO_COLOR set. quiet: warnings and errors alone.
+void set_up_log(bool quiet);
+
+void log_info(const std::string& text);
+void log_warning(const std::string& text);
+void log_error(const std::string& text);
+
+/// A line on stdout.
+void print(const std::string& text);
+
+/// "2751.6 mm^3", "0.234 mm", "63.5 m/s": four digits, with the prefix that people use.
+std::string as_length(double metres);
+std::string as_volume(double cubic_metres);
+std::string as_time(double seconds);
+std::string as_bytes(double bytes);
+std::string four_digits(double value);
+
+}  // namespace puffin::tools

@@ -1,0 +1,77 @@
+// puffin: the command line. Options of a command are in its own file; here: help, errors, exit codes.
+
+#include <CLI/CLI.hpp>
+#include <cstdlib>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "cases/case_error.hpp"
+#include "tools/puffin/commands.hpp"
+#include "tools/puffin/console.hpp"
+#include "tools/puffin/exit_codes.hpp"
+
+namespace puffin::tools {
+namespace {
+
+constexpr const char* exit_code_help =
+    "Exit codes: 0 ok; 1 internal error; 2 usage; 3 case file invalid; 4 geometry invalid; 5 diverged; 6 resources;\n"
+    "7 input or output; 8 batch ended with failed cases; 9 out of tolerance; 75 stopped, can be resumed; 130 Ctrl-C.\n"
+    "stdout holds results, stderr log and progress. NO_COLOR is respected.";
+
+/// On stderr for people; with --json also as the one object on stdout.
+int report(const std::exception& error, bool json) {
+  const ExitCode code = exit_code(error);
+  nlohmann::json problems = nlohmann::json::array();
+  if (const auto* case_error = dynamic_cast<const cases::CaseError*>(&error)) {
+    for (const cases::Problem& p : case_error->problems) {
+      problems.push_back(
+          {{"file", p.file}, {"line", p.line}, {"column", p.column}, {"key", p.key}, {"message", p.text}});
+      if (!json) std::fprintf(stderr, "%s\n", p.to_string().c_str());
+    }
+  } else {
+    problems.push_back({{"message", error.what()}});
+    if (!json) log_error(error.what());
+  }
+  const nlohmann::json object{{"ok", false}, {"exit_code", static_cast<int>(code)}, {"problems", problems}};
+  if (json) print(object.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+  return code;
+}
+
+/// Whether the words ask for JSON; known before parsing, so that a usage error can be JSON too.
+bool wants_json(int argc, char** argv) {
+  for (int i = 1; i < argc; ++i)
+    if (std::string_view(argv[i]) == "--json") return true;
+  return false;
+}
+
+int run(int argc, char** argv) {
+  const bool json = wants_json(argc, argv);
+  set_up_log(false);
+  CLI::App app{"Predicts how a dry powder inhaler releases its drug: air, carriers and fines.", "puffin"};
+  app.footer(exit_code_help);
+  app.require_subcommand(1);
+  app.set_version_flag("--version", PUFFIN_VERSION);
+  std::map<const CLI::App*, Action> actions;
+  for (const Command& command : all_commands()) {
+    CLI::App* sub = app.add_subcommand(command.name, command.summary);
+    actions[sub] = command.add(*sub);
+  }
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
+    if (json) return report(UsageError(e.what()), true);
+    app.exit(e, std::cerr, std::cerr);
+    return usage;
+  }
+  try {
+    return actions.at(app.get_subcommands().front())();
+  } catch (const std::exception& e) {
+    return report(e, json);
+  }
+}
+
+}  // namespace
+}  // namespace puffin::tools
+
+int main(int argc, char** argv) { return puffin::tools::run(argc, argv); }

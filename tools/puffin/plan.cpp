@@ -1,0 +1,90 @@
+// puffin plan: what a case will run, what it leaves out, and why.
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "cases/choices.hpp"
+#include "tools/puffin/arguments.hpp"
+#include "tools/puffin/commands.hpp"
+#include "tools/puffin/console.hpp"
+#include "tools/puffin/exit_codes.hpp"
+
+namespace puffin::tools {
+namespace {
+
+using nlohmann::json;
+
+struct Part {
+  std::string name;
+  bool runs = false;
+  std::string why;
+};
+
+std::string air_of(const cases::Case& c) {
+  if (c.air.model == cases::AirModel::frozen) return "a fixed field: no lattice is computed";
+  return "lattice until " + as_time(c.stop.time) + ", collision " + std::string(cases::name_of(c.numerics.collision)) +
+         ", walls " + std::string(cases::name_of(c.numerics.wall)) + ", eddies " +
+         std::string(cases::name_of(c.numerics.les));
+}
+
+std::vector<Part> parts_of(const cases::Case& c) {
+  std::vector<Part> parts;
+  const bool lattice = c.air.model == cases::AirModel::lbm;
+  parts.push_back({"air", c.air.model != cases::AirModel::none,
+                   c.air.model == cases::AirModel::none ? "air.model is \"none\"" : air_of(c)});
+  if (!c.carriers) {
+    parts.push_back({"carriers", false, "the case has no [carriers]"});
+  } else {
+    const cases::Carriers& k = *c.carriers;
+    parts.push_back({"carriers", true,
+                     std::to_string(k.count / k.parcel) + (k.parcel > 1 ? " parcels" : " carriers") +
+                         (k.start > 0.0 ? ", held until " + as_time(k.start) : "")});
+    parts.push_back({"rotation", k.rotation, k.rotation ? "carriers spin" : "carriers.rotation is false"});
+    parts.push_back({"reaction on the air", lattice && k.two_way,
+                     !lattice    ? "there is no lattice to act on"
+                     : k.two_way ? "carriers.two_way"
+                                 : "carriers.two_way is false"});
+    const bool sticky = k.adhesion.model != cases::AdhesionModel::none;
+    parts.push_back({"adhesion", sticky,
+                     sticky ? std::string(cases::name_of(k.adhesion.model)) + ", " +
+                                  four_digits(1e3 * k.adhesion.surface_energy) + " mJ/m^2"
+                            : "carriers.adhesion.model is \"none\""});
+  }
+  if (!c.fines) {
+    parts.push_back({"fines", false, "the case has no [fines]"});
+    return parts;
+  }
+  parts.push_back({"micro-models", !c.fines->micromodels.empty(),
+                   c.fines->micromodels.empty() ? "fines.micromodels is not given" : c.fines->micromodels});
+  for (const cases::Scalar& s : c.fines->scalars)
+    parts.push_back({"scalar " + s.name, true, "transported once something is airborne"});
+  return parts;
+}
+
+int plan(const CaseArguments& a) {
+  const cases::Case c = a.read();
+  const std::vector<Part> parts = parts_of(c);
+  if (a.json) {
+    json j{{"name", c.name}, {"runs", json::array()}, {"skipped", json::array()}, {"shared", json::array()}};
+    for (const Part& p : parts) j[p.runs ? "runs" : "skipped"].push_back({{"name", p.name}, {"why", p.why}});
+    print(j.dump(2));
+    return ok;
+  }
+  print(c.name + ":");
+  for (const Part& p : parts) print((p.runs ? "  runs     " : "  skipped  ") + p.name + ": " + p.why);
+  return ok;
+}
+
+}  // namespace
+
+namespace commands {
+Command plan() {
+  return {"plan", "what a case will run, what it leaves out, and why", [](CLI::App& app) -> Action {
+            auto a = std::make_shared<CaseArguments>();
+            a->add_to(app);
+            return [a] { return puffin::tools::plan(*a); };
+          }};
+}
+}  // namespace commands
+
+}  // namespace puffin::tools
