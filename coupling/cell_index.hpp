@@ -1,6 +1,7 @@
 #pragma once
 // Fast look-up: which slot does a voxel have, and to which run does a slot belong?
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -22,6 +23,28 @@ class CellIndex {
     if (!wrap(i, 0) || !wrap(j, 1) || !wrap(k, 2)) return -1;
     const Row& row = rows_[j + static_cast<std::size_t>(box_[1]) * k];
     return i < row.first || i >= row.last ? -1 : slots_[row.begin + (i - row.first)];
+  }
+  /// Slots of the cells (i, j, k) ... (i + count - 1, j, k), as active_slot gives them. Returns whether all are active.
+  bool active_slots(int i, int j, int k, int count, std::int32_t* slots) const {
+    if (!wrap(j, 1) || !wrap(k, 2)) {
+      std::fill_n(slots, count, -1);
+      return false;
+    }
+    const Row& row = rows_[j + static_cast<std::size_t>(box_[1]) * k];
+    bool all = true;
+    if (i >= row.first && i + count <= row.last) {
+      const std::int32_t* from = slots_.data() + row.begin + (i - row.first);
+      for (int n = 0; n < count; ++n) {
+        slots[n] = from[n];
+        all = all && from[n] >= 0;
+      }
+      return all;
+    }
+    for (int n = 0; n < count; ++n) {
+      slots[n] = active_slot(i + n, j, k);
+      all = all && slots[n] >= 0;
+    }
+    return all;
   }
   /// Index into Rows::runs() of an active slot.
   std::int32_t run(std::int32_t slot) const { return runs_[slot]; }

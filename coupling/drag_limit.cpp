@@ -18,4 +18,11 @@ void limit_drag(const Stencils& stencils, double interval, const Scale& scale, S
   });
 }
 
+double load_bound(double largest_fraction, std::span<const double> beta, std::span<const double> solid_volume,
+                  double interval, const Scale& scale) {
+  double densest = 0.0;
+  for (std::size_t p = 0; p < beta.size(); ++p) densest = std::max(densest, beta[p] / solid_volume[p]);
+  return largest_fraction * densest * interval / scale.density;
+}
+
 }  // namespace puffin::coupling

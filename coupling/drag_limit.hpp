@@ -31,4 +31,11 @@ namespace puffin::coupling {
 void limit_drag(const Stencils& stencils, double interval, const Scale& scale, Spreader& spreader,
                 std::span<double> scratch, std::span<double> beta);
 
+/// An upper bound of G_p from numbers that are known already: sum_q w_qj beta_q <= max(beta/V) sum_q w_qj V_q, so
+///     G <= largest_fraction * max(beta_q / V_q) * interval / density.
+/// Where it is below 1, limit_drag would change nothing and can be left out. in: largest solid fraction of a cell
+/// before the limit (solid_fraction returns it); `beta` [kg/s] and `solid_volume` [m^3] by carrier index.
+double load_bound(double largest_fraction, std::span<const double> beta, std::span<const double> solid_volume,
+                  double interval, const Scale& scale);
+
 }  // namespace puffin::coupling

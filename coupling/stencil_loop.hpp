@@ -9,17 +9,21 @@
 
 namespace puffin::coupling {
 
-/// Calls visit(slab, stencil) for every stencil: the even slabs in parallel, then the odd ones; inside a slab in order.
-/// No two concurrent calls have a cell in common, and every cell is visited in the same order however many threads run.
+/// Calls visit(tile, stencil) for every stencil: the tiles of one colour in parallel, colour by colour; inside a tile
+/// in order. No two concurrent calls have a cell in common, and every cell is visited in the same order however many
+/// threads run.
 template <class Visit>
-void for_each_by_slab(const Stencils& stencils, const Visit& visit) {
-  const auto& slabs = stencils.slabs();
-  const int count = static_cast<int>(slabs.size()) - 1;
-  for (int parity = 0; parity < 2; ++parity)
-    tbb::parallel_for(0, (count - parity + 1) / 2, [&](int n) {
-      const int slab = 2 * n + parity;
-      for (int s = slabs[slab]; s < slabs[slab + 1]; ++s) visit(slab, stencils.stencils()[s]);
+void for_each_by_tile(const Stencils& stencils, const Visit& visit) {
+  const auto& tiles = stencils.tiles();
+  const auto [across, up] = stencils.tile_counts();
+  for (int colour = 0; colour < 4; ++colour) {
+    const int y = colour % 2, z = colour / 2;
+    const int columns = (across - y + 1) / 2, layers = (up - z + 1) / 2;
+    tbb::parallel_for(0, columns * layers, [&, columns = columns, across = across](int n) {
+      const int tile = 2 * (n % columns) + y + across * (2 * (n / columns) + z);
+      for (int s = tiles[tile]; s < tiles[tile + 1]; ++s) visit(tile, stencils.stencils()[s]);
     });
+  }
 }
 
 /// Calls visit(stencil) for every stencil, in parallel; for visitors that only write what belongs to the carrier.

@@ -74,26 +74,24 @@ int fill(const CellIndex& cells, const Kernel& kernel, const Eigen::Vector3d& po
   block.slots.resize(width * width * width);
   block.weights.resize(width * width * width);
   bool whole = true;
-  int n = 0;
-  for (int k = 0; k < width; ++k)
-    for (int j = 0; j < width; ++j)
-      for (int i = 0; i < width; ++i, ++n) {
-        block.slots[n] = cells.active_slot(base[0] + i - reach, base[1] + j - reach, base[2] + k - reach);
-        block.weights[n] = weight[0][i] * (weight[1][j] * weight[2][k]);
-        whole = whole && block.slots[n] >= 0;
-      }
+  for (int k = 0, n = 0; k < width; ++k)
+    for (int j = 0; j < width; ++j, n += width) {
+      whole &= cells.active_slots(base[0] - reach, base[1] + j - reach, base[2] + k - reach, width, &block.slots[n]);
+      const double across = weight[1][j] * weight[2][k];
+      for (int i = 0; i < width; ++i) block.weights[n + i] = weight[0][i] * across;
+    }
   if (!whole) keep_connected(width, block);
   double sum = 0.0;
   for (const double w : block.weights) sum += w;
   if (!(sum > 0.0)) return 0;
-  int count = 0;
-  n = 0;
+  const double scale = 1.0 / sum;
+  int count = 0, n = 0;
   for (int k = -reach; k <= reach; ++k)
     for (int j = -reach; j <= reach; ++j)
       for (int i = -reach; i <= reach; ++i, ++n)
         if (block.weights[n] > 0.0)
           entries[count++] = {block.slots[n], static_cast<std::int8_t>(i), static_cast<std::int8_t>(j),
-                              static_cast<std::int8_t>(k), block.weights[n] / sum};
+                              static_cast<std::int8_t>(k), block.weights[n] * scale};
   return count;
 }
 
@@ -105,23 +103,56 @@ const Kernel& Stencils::kernel_for(double diameter_in_cells) {
   return found != known_kernels_.end() ? found->second : known_kernels_.emplace(key, Kernel(key)).first->second;
 }
 
-void Stencils::sort_into_slabs(const CellIndex& cells, std::span<const Eigen::Vector3d> position,
+namespace {
+
+/// Sorts what is nearly sorted in linear time, and anything else as std::sort does. The order is total: one result.
+template <class T>
+void sort_nearly_sorted(std::vector<T>& items) {
+  std::size_t moves = 0;
+  for (std::size_t n = 1; n < items.size(); ++n) {
+    const T item = items[n];
+    std::size_t to = n;
+    for (; to > 0 && item < items[to - 1]; --to, ++moves) items[to] = items[to - 1];
+    items[to] = item;
+    if (moves > 4 * items.size()) return std::sort(items.begin(), items.end());
+  }
+}
+
+}  // namespace
+
+void Stencils::sort_into_tiles(const CellIndex& cells, std::span<const Eigen::Vector3d> position,
                                std::span<const int> carriers, int reach) {
   const auto box = cells.box();
-  const int axis = static_cast<int>(std::max_element(box.begin(), box.end()) - box.begin());
-  // An even number of slabs, so that the first and the last of a periodic box differ in parity.
-  const int count = std::max(1, 2 * (box[axis] / (2 * (2 * reach + 1))));
-  const auto slab = [&](int carrier) {
-    int cell = nearest_cell((position[carrier][axis] - cells.origin()[axis]) / cells.dx());
-    if (cells.periodic()[axis]) cell = (cell % box[axis] + box[axis]) % box[axis];
-    return static_cast<int>(static_cast<std::int64_t>(std::clamp(cell, 0, box[axis] - 1)) * count / box[axis]);
-  };
-  slabs_.assign(count + 1, 0);
-  for (const int carrier : carriers) ++slabs_[slab(carrier) + 1];
-  for (int s = 0; s < count; ++s) slabs_[s + 1] += slabs_[s];
-  std::vector<int> next(slabs_.begin(), slabs_.end() - 1);
-  stencils_.resize(carriers.size());
-  for (const int carrier : carriers) stencils_[next[slab(carrier)]++].carrier = carrier;
+  // Even numbers of tiles, so that the first and the last of a periodic direction differ in colour.
+  const int width = 2 * reach + 1;
+  for (int d = 0; d < 2; ++d) tile_counts_[d] = std::max(1, 2 * (box[d + 1] / (2 * width)));
+  if (!std::equal(carriers.begin(), carriers.end(), carriers_.begin(), carriers_.end())) {
+    carriers_.assign(carriers.begin(), carriers.end());
+    order_.resize(carriers_.size());
+    for (std::size_t n = 0; n < carriers_.size(); ++n) order_[n].carrier = carriers_[n];
+  }
+  for (Place& place : order_) {
+    const Eigen::Vector3d at = (position[place.carrier] - cells.origin()) / cells.dx();
+    std::array<std::int64_t, 3> cell;
+    for (int d = 0; d < 3; ++d) {
+      int c = nearest_cell(at[d]);
+      if (cells.periodic()[d] && c != nowhere) c = (c % box[d] + box[d]) % box[d];
+      cell[d] = std::clamp(c, 0, box[d] - 1);
+    }
+    const std::int64_t tile =
+        cell[1] * tile_counts_[0] / box[1] + tile_counts_[0] * (cell[2] * tile_counts_[1] / box[2]);
+    place.key = ((tile * box[2] + cell[2]) * box[1] + cell[1]) * box[0] + cell[0];
+  }
+  sort_nearly_sorted(order_);
+  const int count = tile_counts_[0] * tile_counts_[1];
+  tiles_.assign(count + 1, 0);
+  stencils_.resize(order_.size());
+  const std::int64_t keys_a_tile = static_cast<std::int64_t>(box[0]) * box[1] * box[2];
+  for (std::size_t n = 0; n < order_.size(); ++n) {
+    stencils_[n].carrier = order_[n].carrier;
+    ++tiles_[order_[n].key / keys_a_tile + 1];
+  }
+  for (int t = 0; t < count; ++t) tiles_[t + 1] += tiles_[t];
 }
 
 void Stencils::build(const CellIndex& cells, std::span<const Eigen::Vector3d> position, std::span<const double> radius,
@@ -133,7 +164,7 @@ void Stencils::build(const CellIndex& cells, std::span<const Eigen::Vector3d> po
     last = radius[carrier];
     reach = std::max(reach, kernel_for(2.0 * last / cells.dx()).reach());
   }
-  sort_into_slabs(cells, position, carriers, reach);
+  sort_into_tiles(cells, position, carriers, reach);
   kernels_.resize(stencils_.size());
   std::size_t room = 0;
   last = -1.0;
@@ -147,7 +178,7 @@ void Stencils::build(const CellIndex& cells, std::span<const Eigen::Vector3d> po
     const std::size_t width = 2 * kernel->reach() + 1;
     room += width * width * width;
   }
-  if (entries_.size() < room) entries_.resize(room);
+  if (entries_.size() < room + entries_ahead) entries_.resize(room + entries_ahead);
 
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, stencils_.size(), 64), [&](const auto& range) {
     Block block;

@@ -15,6 +15,9 @@ void interpolate(const Stencils& stencils, const lbm::Moments& moments, std::siz
   for_each_stencil(stencils, [&](const Stencil& stencil) {
     double rho = 0.0, ux = 0.0, uy = 0.0, uz = 0.0;
     for (const StencilEntry& e : stencils.entries(stencil)) {
+      const std::int32_t ahead = Stencils::slot_ahead(e);
+      for (const auto* field : {&moments.density_excess, &moments.ux, &moments.uy, &moments.uz})
+        __builtin_prefetch(field->data() + ahead);
       rho += e.weight * static_cast<double>(moments.density_excess[e.slot]);
       ux += e.weight * static_cast<double>(moments.ux[e.slot]);
       uy += e.weight * static_cast<double>(moments.uy[e.slot]);
@@ -65,26 +68,32 @@ MomentumBooking Spreader::spread(const Stencils& stencils, std::span<const Eigen
     books.given += impulse[stencil.carrier];
     books.exchanged += impulse[stencil.carrier].norm();
   }
-  for_each_by_slab(stencils, [&](int, const Stencil& stencil) {
+  for_each_by_tile(stencils, [&](int, const Stencil& stencil) {
     const Eigen::Vector3d j = impulse[stencil.carrier];
-    for (const StencilEntry& e : stencils.entries(stencil)) momentum_[e.slot] += e.weight * j;
+    for (const StencilEntry& e : stencils.entries(stencil)) {
+      __builtin_prefetch(&momentum_[Stencils::slot_ahead(e)], 1);
+      momentum_[e.slot] += e.weight * j;
+    }
   });
   // Once more over the same cells: book each one when it is met first, and leave the sums zero for the next call.
   const double to_lu = 1.0 / (interval * scale.force());
   struct Part {
     Eigen::Vector3d taken = Eigen::Vector3d::Zero(), rounding_lu = Eigen::Vector3d::Zero();
   };
-  std::vector<Part> parts(stencils.slabs().empty() ? 0 : stencils.slabs().size() - 1);
-  for_each_by_slab(stencils, [&](int slab, const Stencil& stencil) {
+  std::vector<Part> parts(stencils.tiles().size() - 1);
+  for_each_by_tile(stencils, [&](int tile, const Stencil& stencil) {
     for (const StencilEntry& e : stencils.entries(stencil)) {
+      const std::int32_t ahead = Stencils::slot_ahead(e);
+      __builtin_prefetch(&momentum_[ahead], 1);
+      for (float* f : {force.x.data(), force.y.data(), force.z.data()}) __builtin_prefetch(f + ahead, 1);
       Eigen::Vector3d& cell = momentum_[e.slot];
-      if (cell.isZero(0.0)) continue;
+      if (cell.x() == 0.0 && cell.y() == 0.0 && cell.z() == 0.0) continue;
       const Eigen::Vector3d f = cell * to_lu;
       force.x[e.slot] = static_cast<float>(f.x());
       force.y[e.slot] = static_cast<float>(f.y());
       force.z[e.slot] = static_cast<float>(f.z());
-      parts[slab].taken += cell;
-      parts[slab].rounding_lu += Eigen::Vector3d(force.x[e.slot], force.y[e.slot], force.z[e.slot]) - f;
+      parts[tile].taken += cell;
+      parts[tile].rounding_lu += Eigen::Vector3d(force.x[e.slot], force.y[e.slot], force.z[e.slot]) - f;
       cell.setZero();
     }
   });
@@ -96,14 +105,14 @@ MomentumBooking Spreader::spread(const Stencils& stencils, std::span<const Eigen
 }
 
 void Spreader::clear(const Stencils& stencils, lbm::BodyForce& force) {
-  for_each_by_slab(stencils, [&](int, const Stencil& stencil) {
+  for_each_by_tile(stencils, [&](int, const Stencil& stencil) {
     for (const StencilEntry& e : stencils.entries(stencil)) force.x[e.slot] = force.y[e.slot] = force.z[e.slot] = 0.0f;
   });
 }
 
-void Spreader::smooth(const Stencils& stencils, std::span<const double> value, double ceiling,
-                      std::span<double> result) {
-  for_each_by_slab(stencils, [&](int, const Stencil& stencil) {
+double Spreader::smooth(const Stencils& stencils, std::span<const double> value, double ceiling,
+                        std::span<double> result) {
+  for_each_by_tile(stencils, [&](int, const Stencil& stencil) {
     const double v = value[stencil.carrier];
     for (const StencilEntry& e : stencils.entries(stencil)) scalar_[e.slot] += e.weight * v;
   });
@@ -112,9 +121,14 @@ void Spreader::smooth(const Stencils& stencils, std::span<const double> value, d
     for (const StencilEntry& e : stencils.entries(stencil)) sum += e.weight * std::min(scalar_[e.slot], ceiling);
     result[stencil.carrier] = sum;
   });
-  for_each_by_slab(stencils, [&](int, const Stencil& stencil) {
-    for (const StencilEntry& e : stencils.entries(stencil)) scalar_[e.slot] = 0.0;
+  std::vector<double> largest(stencils.tiles().size() - 1, 0.0);
+  for_each_by_tile(stencils, [&](int tile, const Stencil& stencil) {
+    for (const StencilEntry& e : stencils.entries(stencil)) {
+      largest[tile] = std::max(largest[tile], scalar_[e.slot]);
+      scalar_[e.slot] = 0.0;
+    }
   });
+  return largest.empty() ? 0.0 : *std::max_element(largest.begin(), largest.end());
 }
 
 }  // namespace puffin::coupling

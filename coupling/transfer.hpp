@@ -58,8 +58,9 @@ class Spreader {
   static void clear(const Stencils& stencils, lbm::BodyForce& force);
 
   /// s_j = sum_p w_pj value_p in every cell, limited to `ceiling`, and read back: result_p = sum_j w_pj s_j.
-  /// in: `value` by carrier index; out: `result` by carrier index (0 without a stencil; others are left alone).
-  void smooth(const Stencils& stencils, std::span<const double> value, double ceiling, std::span<double> result);
+  /// in: `value` >= 0 by carrier index; out: `result` by carrier index (0 without a stencil; others are left alone).
+  /// Returns the largest s_j, before the limit.
+  double smooth(const Stencils& stencils, std::span<const double> value, double ceiling, std::span<double> result);
 
  private:
   std::vector<Eigen::Vector3d> momentum_;  // by slot [N s]

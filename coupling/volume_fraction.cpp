@@ -4,11 +4,12 @@
 
 namespace puffin::coupling {
 
-void solid_fraction(const Stencils& stencils, std::span<const double> solid_volume, double dx, Spreader& spreader,
-                    std::span<double> fraction) {
+double solid_fraction(const Stencils& stencils, std::span<const double> solid_volume, double dx, Spreader& spreader,
+                      std::span<double> fraction) {
   const double cell = dx * dx * dx;
-  spreader.smooth(stencils, solid_volume, largest_solid_fraction * cell, fraction);
+  const double largest = spreader.smooth(stencils, solid_volume, largest_solid_fraction * cell, fraction);
   for_each_stencil(stencils, [&](const Stencil& stencil) { fraction[stencil.carrier] /= cell; });
+  return largest / cell;
 }
 
 }  // namespace puffin::coupling

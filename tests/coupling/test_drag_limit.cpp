@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
+
+#include "coupling/volume_fraction.hpp"
 
 #include "tests/coupling/boxes.hpp"
 
@@ -115,6 +118,23 @@ TEST(DragLimit, WithoutItTheSameLoadBlowsUp) {
   const double first = x.largest_slip();
   for (int n = 0; n < 10; ++n) x.step(2 * scale.dt, false);
   EXPECT_GT(x.largest_slip(), 1e3 * first);
+}
+
+TEST(DragLimit, TheBoundIsNeverBelowTheLoad) {
+  // Loads found by limit_drag itself (`scratch`), for carriers of unequal drag and volume; 1e-12 for rounding.
+  Exchange x(1000, 1e-7, 3e-10, {6, 6, 6}, {8, 8, 8});
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> uniform(0.5, 1.5);
+  std::vector<double> volume, load(1000), fraction(1000);
+  for (double& b : x.beta) {
+    b *= uniform(random);
+    volume.push_back(1.8e-13 * uniform(random));
+  }
+  const double largest = solid_fraction(x.stencils, volume, scale.dx, x.spreader, fraction);
+  const double bound = load_bound(largest, x.beta, volume, scale.dt, scale);
+  std::vector<double> beta = x.beta;
+  limit_drag(x.stencils, scale.dt, scale, x.spreader, load, beta);
+  EXPECT_LE(*std::max_element(load.begin(), load.end()), bound * (1.0 + 1e-12));
 }
 
 TEST(DragLimit, ABedBelowTheLimitKeepsItsDragExactly) {

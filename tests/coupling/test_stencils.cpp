@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "coupling/stencil_loop.hpp"
 #include "tests/coupling/boxes.hpp"
 
 namespace {
@@ -103,23 +104,52 @@ TEST(Stencils, PeriodicBoxesWrapAround) {
   for (const auto& [slot, w] : weights[0]) EXPECT_NEAR(w, weights[1].at(slot), 1e-7);
 }
 
-TEST(Stencils, ConcurrentSlabsNeverShareACell) {
+TEST(Stencils, TilesOfOneColourNeverShareACell) {
   for (const std::array<bool, 3> periodic : {std::array{false, false, false}, std::array{true, true, true}}) {
-    const auto rows = full_box({41, 10, 10}, 2e-4, periodic);
+    const auto rows = full_box({10, 41, 22}, 2e-4, periodic);
     const CellIndex cells(rows);
     for (const double d : {1e-4, 3.9e-4}) {
-      const auto s = stencils_of(cells, places(rows, 400, {0, 0, 0}, {40.4, 9, 9}), d);
-      const int slabs = static_cast<int>(s.slabs().size()) - 1;
-      EXPECT_GT(slabs, 3);
-      std::vector<std::set<int>> touched(slabs);
-      for (int b = 0; b < slabs; ++b)
-        for (int n = s.slabs()[b]; n < s.slabs()[b + 1]; ++n)
-          for (const StencilEntry& e : s.entries(s.stencils()[n])) touched[b].insert(e.slot);
-      for (int a = 0; a < slabs; ++a)
-        for (int b = a + 2; b < slabs; b += 2)
+      const auto s = stencils_of(cells, places(rows, 600, {0, 0, 0}, {9, 40.4, 21.4}), d);
+      const auto [across, up] = s.tile_counts();
+      EXPECT_GT(across * up, 4);
+      std::vector<std::set<int>> touched(across * up);
+      std::size_t seen = 0;
+      for (int t = 0; t < across * up; ++t)
+        for (int n = s.tiles()[t]; n < s.tiles()[t + 1]; ++n, ++seen)
+          for (const StencilEntry& e : s.entries(s.stencils()[n])) touched[t].insert(e.slot);
+      EXPECT_EQ(seen, s.stencils().size());
+      for (int a = 0; a < across * up; ++a)
+        for (int b = 0; b < a; ++b) {
+          const bool one_colour = (a % across - b % across) % 2 == 0 && (a / across - b / across) % 2 == 0;
+          if (!one_colour) continue;
           for (const int slot : touched[a]) EXPECT_FALSE(touched[b].count(slot));
+        }
     }
   }
+}
+
+TEST(Stencils, TheLoopVisitsEveryStencilOnce) {
+  for (const std::array<int, 3> size : {std::array{9, 41, 4}, std::array{9, 5, 4}, std::array{4, 4, 30}}) {
+    const auto rows = full_box(size, 2e-4);
+    const CellIndex cells(rows);
+    const auto s = stencils_of(cells, places(rows, 200, {0, 0, 0}, {3, 3, 3}), 1e-4);
+    std::vector<int> visits(200, 0);
+    for_each_by_tile(s, [&](int, const Stencil& stencil) { ++visits[stencil.carrier]; });
+    EXPECT_EQ(visits, std::vector<int>(200, 1));
+  }
+}
+
+TEST(Stencils, DoNotDependOnWhatWasBuiltBefore) {
+  const auto rows = full_box({30, 30, 30}, 2e-4);
+  const CellIndex cells(rows);
+  const auto first = places(rows, 300, {2, 2, 2}, {27, 27, 27}), second = places(rows, 300, {2, 2, 2}, {27, 27, 27}, 7);
+  const std::vector<double> radius(300, 0.5e-4);
+  Stencils used, fresh;
+  used.build(cells, first, radius, all(300));
+  used.build(cells, second, radius, all(300));
+  fresh.build(cells, second, radius, all(300));
+  ASSERT_EQ(used.tiles(), fresh.tiles());
+  for (std::size_t n = 0; n < 300; ++n) EXPECT_EQ(used.stencils()[n].carrier, fresh.stencils()[n].carrier);
 }
 
 TEST(Stencils, AreTheSameForOneAndTwoThreadsAndMarkTheirRuns) {
