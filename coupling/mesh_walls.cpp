@@ -84,8 +84,9 @@ MeshWalls::Node MeshWalls::nearest_node(const Vector3d& p) const {
     const double x = std::clamp((p[d] - first_node_[d]) / spacing_ + 0.5, 0.0, nodes_[d] - 0.5);
     n[d] = static_cast<int>(x);
   }
+  const Vector3d place = node_at(n[0], n[1], n[2]);
   return {n[0] + static_cast<std::size_t>(nodes_[0]) * (n[1] + static_cast<std::size_t>(nodes_[1]) * n[2]),
-          (p - node_at(n[0], n[1], n[2])).norm()};
+          (p - place).norm(), place};
 }
 
 void MeshWalls::near(const Vector3d& centre, double reach, std::vector<dem::WallTouch>& touches) const {
@@ -113,7 +114,10 @@ double MeshWalls::clearance(const Vector3d& centre, double limit) const {
 bool MeshWalls::enclosed(const Vector3d& point) const {
   const Node node = nearest_node(point);
   const float s = signed_clearance_[node.index];
-  return std::abs(s) > node.away ? s > 0.0f : tree_->inside(point);
+  if (std::abs(s) > node.away) return s > 0.0f;
+  // Same side as the node if no triangle lies between: far cheaper than a winding number so near the surface.
+  if (!tree_->first_hit(point, node.place - point, 1.0)) return std::signbit(s) == 0;
+  return tree_->inside(point);
 }
 
 std::optional<int> MeshWalls::beyond_opening(const Vector3d& point) const {

@@ -43,7 +43,8 @@ class MeshWalls : public dem::Walls {
                                          // triangle
   struct Node {
     std::size_t index = 0;
-    double away = 0.0;  // [m] from the point asked for
+    double away = 0.0;                                // [m] from the point asked for
+    Eigen::Vector3d place = Eigen::Vector3d::Zero();  // [m]
   };
   Node nearest_node(const Eigen::Vector3d& p) const;
   Eigen::Vector3d node_at(int i, int j, int k) const;

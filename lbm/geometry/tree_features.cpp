@@ -21,7 +21,10 @@ class Gatherer {
  public:
   Gatherer(const TriangleTree& tree, const Vec3& centre, double reach, const std::vector<char>* skip, Side side,
            std::vector<Feature>& out)
-      : tree_(tree), centre_(centre), reach_(reach), skip_(skip), side_(side), out_(out), first_(out.size()) {}
+      : tree_(tree), centre_(centre), reach_(reach), skip_(skip), side_(side), out_(out), first_(out.size()) {
+    seen_edges_.clear();
+    seen_vertices_.clear();
+  }
 
   void visit(int triangle, const NearestOnTriangle& nearest) {
     if (skipped(triangle) || tree_.adjacency().edge(triangle, 0) < 0) return;
@@ -100,7 +103,7 @@ class Gatherer {
   Side side_;
   std::vector<Feature>& out_;
   std::size_t first_;
-  std::vector<std::int32_t> seen_edges_, seen_vertices_;
+  inline static thread_local std::vector<std::int32_t> seen_edges_, seen_vertices_;  // kept to save allocations
 };
 
 }  // namespace

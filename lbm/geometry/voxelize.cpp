@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "lbm/geometry/closing_caps.hpp"
 #include "lbm/geometry/row_crossings.hpp"
 #include "lbm/geometry/surface_check.hpp"
 
@@ -51,48 +52,33 @@ Voxels make_box(const TriangleTree& tree, double dx, const VoxelizeOptions& opti
   return box;
 }
 
-// Every edge is run through equally often in both directions: then signed crossings are winding numbers.
-bool is_closed(const Adjacency& adjacency) {
-  for (std::size_t e = 0; e < adjacency.edges(); ++e) {
-    int sum = 0;
-    for (const auto& use : adjacency.uses(e)) sum += use.forward ? 1 : -1;
-    if (sum != 0) return false;
-  }
-  return true;
-}
-
 // Coordinates of an STL carry 2^-24 of the largest: a centre nearer than this to a triangle counts as on it.
 double on_surface(const TriangleTree& tree, double dx) {
   const double largest = std::max(tree.min().cwiseAbs().maxCoeff(), tree.max().cwiseAbs().maxCoeff());
   return std::min(1e-3 * dx, std::ldexp(largest, -22));
 }
 
-void fill_by_crossings(const TriangleTree& tree, Voxels& box) {
-  const RowCrossings rows = row_crossings(tree.mesh(), box, on_surface(tree, box.dx));
+void fill(const TriangleTree& tree, Voxels& box) {
+  const double shift = on_surface(tree, box.dx);
+  const ClosingCaps caps(tree.mesh(), tree.adjacency());
+  const RowCrossings rows = row_crossings(caps.closed(), box, shift);
   const int nx = box.size[0];
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, rows.first.size() - 1, 64), [&](const auto& r) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, rows.first.size() - 1, 16), [&](const auto& r) {
     std::vector<int> step(nx + 1);
     for (std::size_t row = r.begin(); row < r.end(); ++row) {
-      if (rows.first[row] == rows.first[row + 1]) continue;
+      if (rows.first[row] == rows.first[row + 1] && caps.empty()) continue;
       std::fill(step.begin(), step.end(), 0);
       for (std::size_t c = rows.first[row]; c < rows.first[row + 1]; ++c) {
         step[rows.crossings[c].i] += rows.crossings[c].step;
       }
+      const int j = static_cast<int>(row) % box.size[1], k = static_cast<int>(row) / box.size[1];
       int winding = 0;
       std::uint8_t* fluid = box.fluid.data() + row * nx;
       for (int i = 0; i < nx; ++i) {
         winding += step[i];
-        fluid[i] = winding != 0;
+        fluid[i] = caps.empty() ? winding != 0 : caps.inside(winding, box.centre(i, j, k) + Vec3::Constant(shift));
       }
     }
-  });
-}
-
-void fill_by_winding_number(const TriangleTree& tree, Voxels& box) {
-  const Vec3 shift = Vec3::Constant(on_surface(tree, box.dx));
-  tbb::parallel_for(0, box.size[1] * box.size[2], [&](int row) {
-    const int j = row % box.size[1], k = row / box.size[1];
-    for (int i = 0; i < box.size[0]; ++i) box.fluid[box.index(i, j, k)] = tree.inside(box.centre(i, j, k) + shift);
   });
 }
 
@@ -201,11 +187,7 @@ Pockets drop_pockets(const TriangleTree& tree, const VoxelizeOptions& options, V
 
 Voxels voxelize(const TriangleTree& tree, double dx, const VoxelizeOptions& options, Pockets* dropped) {
   Voxels voxels = make_box(tree, dx, options);
-  if (is_closed(tree.adjacency())) {
-    fill_by_crossings(tree, voxels);
-  } else {
-    fill_by_winding_number(tree, voxels);
-  }
+  fill(tree, voxels);
   if (std::none_of(voxels.fluid.begin(), voxels.fluid.end(), [](std::uint8_t f) { return f != 0; })) {
     throw GeometryError("error: no cell centre lies inside the surface at a dx of " + millimetres(dx) +
                         "; take a smaller dx, or check that the surface is closed");

@@ -30,8 +30,9 @@ struct Pockets {
 /// Method: for a closed mesh the winding number along a row of cells is the signed count of the crossings of the row
 /// with triangles. Whether a row crosses a triangle is decided exactly: vertices and rows are moved to a lattice of
 /// 2^-40 of the box and the orientations evaluated in 128-bit integers, ties broken by an infinitesimal shift of the
-/// row (Edelsbrunner & Muecke 1990), so no crossing is lost or counted twice on shared edges and vertices. On a mesh
-/// with holes or turned facets each centre's generalised winding number decides.
+/// row (Edelsbrunner & Muecke 1990), so no crossing is lost or counted twice on shared edges and vertices. A mesh
+/// with holes or turned facets is closed by caps first, whose own winding number is taken off again near them
+/// (closing_caps.hpp), so that the generalised winding number of the given triangles decides.
 ///
 /// Throws std::invalid_argument for dx <= 0, a box beyond most_cells, openings of the wrong length, or a periodic
 /// direction whose box is no whole number of cells (the nearest valid dx is named); GeometryError if no centre is

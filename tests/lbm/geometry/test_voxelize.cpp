@@ -155,6 +155,29 @@ TEST(Voxelize, ASmallHoleOrATurnedFacetChangesNoCellAwayFromIt) {
   }
 }
 
+TEST(Voxelize, AnOpenSurfaceIsClassifiedByItsGeneralisedWindingNumber) {
+  // A box without lid and with a turned facet: cell by cell as the definition says.
+  TriangleMesh mesh = shapes::transformed(shapes::box({0, 0, 0}, {1, 1, 1}, 2), shapes::rotation());
+  for (int t = static_cast<int>(mesh.triangles.size()); t-- > 0;) {
+    if (mesh.solid[t] == 5) shapes::remove_triangle(mesh, t);
+  }
+  std::swap(mesh.triangles[3][0], mesh.triangles[3][1]);
+  const TriangleTree tree(mesh);
+  const Voxels v = voxelize(tree, 0.05);
+  std::size_t open_air = 0;
+  for (int k = 0; k < v.size[2]; ++k) {
+    for (int j = 0; j < v.size[1]; ++j) {
+      for (int i = 0; i < v.size[0]; ++i) {
+        const double w = tree.winding_number(v.centre(i, j, k));
+        if (std::abs(std::abs(w) - 0.5) < 0.02) continue;  // twice the error of a winding number
+        ASSERT_EQ(v.is_fluid(i, j, k), std::abs(w) > 0.5) << w;
+        open_air += std::abs(w) > 0.1 && std::abs(w) < 0.9;
+      }
+    }
+  }
+  EXPECT_GT(open_air, 1000u);
+}
+
 TEST(Voxelize, PeriodicDirectionsNeedAWholeNumberOfCellsAndTheErrorNamesTheNearestDx) {
   const TriangleTree tree(shapes::box({0, 0, 0}, {0.010, 0.010, 0.010}));
   VoxelizeOptions options;
