@@ -10,6 +10,7 @@ from pathlib import Path
 import check_files
 import check_format
 import check_layers
+import check_readme
 import check_tidy
 
 CONFIGURATION = Path(__file__).resolve().parents[2]
@@ -188,6 +189,26 @@ class Tidy(SmallTree):
         self.write("lbm/a.cpp", "int x = 1;\n")
         self.compile()
         self.assert_one(self.faults(), "none of our sources")
+
+
+class Readme(SmallTree):
+    STEPS = ["puffin geometry x", "puffin voxelize x", "puffin check x", "puffin run x --out out", "puffin report out"]
+
+    def faults(self, program: str) -> list[str]:
+        commands = "\n".join("build/release/" + step for step in self.STEPS)
+        self.write("README.md", f"```toml\nschema = 1\n```\n```bash\n{commands}\n```\n")
+        self.write("puffin", "#!/bin/sh\n" + program)
+        (self.root / "puffin").chmod(0o755)
+        return check_readme.check(self.root, str(self.root / "puffin"))
+
+    def test_failing_step_is_named(self):
+        self.assert_one(self.faults('test "$1" != check || exit 3\n'), "puffin check x: exit 3")
+
+    def test_steps_that_leave_no_report_are_a_fault(self):
+        self.assert_one(self.faults("exit 0\n"), "no report.html")
+
+    def test_steps_that_leave_a_report_are_in_order(self):
+        self.assertEqual(self.faults("mkdir -p out && touch out/report.html\n"), [])
 
 
 if __name__ == "__main__":
