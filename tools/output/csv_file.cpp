@@ -107,11 +107,16 @@ void CsvFile::append(std::span<const CsvCell> cells) {
     line += as_text(cells[i]);
   }
   stream_ << line << '\n';
-  check();
+  if (std::chrono::steady_clock::now() - flushed_ > std::chrono::seconds(1)) {
+    flush();
+  } else {
+    check();
+  }
 }
 
 void CsvFile::flush() {
   stream_.flush();
+  flushed_ = std::chrono::steady_clock::now();
   check();
 }
 

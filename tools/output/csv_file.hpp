@@ -1,6 +1,7 @@
 #pragma once
 // Tables as comma-separated text: a header line, then rows. Numbers are the shortest text that reads back exactly.
 
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <optional>
@@ -19,7 +20,8 @@ class CsvFile {
   /// this number. Throws OutputError if the file cannot be written or, on resuming, has other columns.
   CsvFile(std::filesystem::path file, std::vector<std::string> columns, std::optional<double> resume_after = {});
 
-  /// Throws std::invalid_argument on a wrong number of cells, OutputError if the disk refuses.
+  /// Throws std::invalid_argument on a wrong number of cells, OutputError if the disk refuses. Handed to the operating
+  /// system at least once a second, as far as rows come.
   void append(std::span<const CsvCell> cells);
   void append(std::initializer_list<CsvCell> cells) { append(std::span(cells.begin(), cells.size())); }
   void flush();
@@ -30,6 +32,7 @@ class CsvFile {
   std::filesystem::path file_;
   std::size_t columns_;
   std::ofstream stream_;
+  std::chrono::steady_clock::time_point flushed_ = std::chrono::steady_clock::now();
 };
 
 /// A table read back: cells as text, in rows.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <stdexcept>
 
 #include "tools/output/output_error.hpp"
@@ -15,19 +16,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The entries of a series at the stored moment nearest to the wanted one; absent: the last moment.
-std::vector<SeriesEntry> nearest(const fs::path& pvd, std::optional<double> time) {
-  const std::vector<SeriesEntry> all = read_pvd(pvd);
-  if (all.empty()) throw OutputError(pvd.string() + " lists no output yet");
-  double best = all.back().time;
-  for (const auto& entry : all) {
-    if (time && std::abs(entry.time - *time) < std::abs(best - *time)) best = entry.time;
-  }
-  std::vector<SeriesEntry> chosen;
-  for (const auto& entry : all) {
-    if (entry.time == best) chosen.push_back(entry);
-  }
-  return chosen;
+/// The entry nearest to the wanted moment; absent: the last one. There must be one.
+const SeriesEntry& nearest(const std::vector<SeriesEntry>& entries, std::optional<double> time) {
+  if (!time) return entries.back();
+  return *std::min_element(entries.begin(), entries.end(), [&](const SeriesEntry& a, const SeriesEntry& b) {
+    return std::abs(a.time - *time) < std::abs(b.time - *time);
+  });
+}
+
+SeriesEntry nearest(const fs::path& pvd, std::optional<double> time) {
+  const std::vector<SeriesEntry> entries = read_pvd(pvd);
+  if (entries.empty()) throw OutputError(pvd.string() + " lists no output yet");
+  return nearest(entries, time);
 }
 
 std::string name_of_run(const fs::path& run) {
@@ -37,16 +37,22 @@ std::string name_of_run(const fs::path& run) {
 }
 
 WallFrame walls_of(const fs::path& run, std::optional<double> time, double* moment = nullptr) {
-  const SeriesEntry entry = nearest(run / "vtk/walls.pvd", time).front();
+  const SeriesEntry entry = nearest(run / "vtk/walls.pvd", time);
   if (moment) *moment = entry.time;
   return read_wall_frame(run / "vtk" / entry.file);
 }
 
-/// The first region of that moment that holds velocities.
+/// The moment nearest to the wanted one of the first region that holds velocities: regions may have intervals of their
+/// own, and the first is the widest in the shipped cases.
 FieldFrame field_of(const fs::path& run, std::optional<double> time, double& moment) {
-  for (const auto& entry : nearest(run / "vtk/fields.pvd", time)) {
-    moment = entry.time;
+  const fs::path pvd = run / "vtk/fields.pvd";
+  std::map<int, std::vector<SeriesEntry>> regions;
+  for (const auto& entry : read_pvd(pvd)) regions[entry.part].push_back(entry);
+  if (regions.empty()) throw OutputError(pvd.string() + " lists no output yet");
+  for (const auto& [part, entries] : regions) {
+    const SeriesEntry& entry = nearest(entries, time);
     FieldFrame frame = read_field_frame(run / "vtk" / entry.file);
+    moment = entry.time;
     if (!frame.velocity.empty()) return frame;
   }
   throw OutputError(run.string() + " holds fields without velocity; add \"velocity\" to `what` in [output] fields");
@@ -90,7 +96,7 @@ void render(const fs::path& run, View view, std::optional<double> time, const fs
   const auto picture = [&]() -> Canvas {
     switch (view) {
       case View::carriers: {
-        const SeriesEntry entry = nearest(run / "vtk/carriers.pvd", time).front();
+        const SeriesEntry entry = nearest(run / "vtk/carriers.pvd", time);
         const CarrierFrame carriers = read_carrier_frame(run / "vtk" / entry.file);
         caption.time = entry.time;
         return carriers_picture(walls_of(run, {}), carriers, caption, options.value_max.value_or(speed_scale(carriers)),

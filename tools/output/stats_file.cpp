@@ -1,6 +1,7 @@
 #include "tools/output/stats_file.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <stdexcept>
 
 #include "tools/output/hdf5_handle.hpp"
@@ -25,6 +26,7 @@ struct StatsFile::Impl {
   Hdf5File file;
   std::vector<Hdf5Handle> datasets;            // one a column
   std::vector<std::vector<double>> collected;  // one a column, not yet written
+  std::chrono::steady_clock::time_point flushed = std::chrono::steady_clock::now();
 
   void write() {
     for (std::size_t c = 0; c < datasets.size(); ++c) {
@@ -37,7 +39,7 @@ struct StatsFile::Impl {
 StatsFile::StatsFile(const std::filesystem::path& path, std::vector<StatsColumn> columns,
                      std::optional<double> resume_after) {
   const bool resume = resume_after && std::filesystem::exists(path);
-  impl_ = std::make_unique<Impl>(Impl{Hdf5File(path, format, resume), {}, {}});
+  impl_ = std::make_unique<Impl>(Impl{Hdf5File(path, format, resume), {}, {}, std::chrono::steady_clock::now()});
   Impl& d = *impl_;
   d.collected.resize(columns.size());
   const Hdf5Quiet quiet;
@@ -80,12 +82,15 @@ void StatsFile::append(std::span<const double> row) {
                                 std::to_string(d.collected.size()) + " columns");
   }
   for (std::size_t c = 0; c < row.size(); ++c) d.collected[c].push_back(row[c]);
-  if (!row.empty() && d.collected.front().size() >= chunk) flush();
+  if (row.empty()) return;
+  const bool late = std::chrono::steady_clock::now() - d.flushed > std::chrono::seconds(10);
+  if (late || d.collected.front().size() >= chunk) flush();
 }
 
 void StatsFile::flush() {
   impl_->write();
   impl_->file.flush();
+  impl_->flushed = std::chrono::steady_clock::now();
 }
 
 std::vector<double> read_stats(const std::filesystem::path& path, const std::string& column) {

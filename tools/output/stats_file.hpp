@@ -16,7 +16,8 @@ struct StatsColumn {
 };
 
 /// Data sets /history/NAME, all of one length; attributes of the root: format = "puffin-stats", format_version = 1.
-/// The first column is the time. Rows are collected and written in blocks.
+/// The first column is the time. Rows are collected and written in blocks, and at least every ten seconds as far as
+/// rows come.
 class StatsFile {
  public:
   /// resume_after: keep an existing file's rows whose first column is at most this number.

@@ -11,6 +11,7 @@
 #include "tools/output/picture/views.hpp"
 #include "tools/output/picture/wall_shape.hpp"
 #include "tools/output/render.hpp"
+#include "tools/output/vtk_series.hpp"
 
 namespace puffin::output {
 namespace {
@@ -166,6 +167,21 @@ TEST(Render, PicturesHaveManyColours) {
   EXPECT_GT(colours_in(carriers_picture(walls, synthetic_carriers(0.12), {"x", 0.12}, 2.0, 800, 500)), 500u);
   EXPECT_GT(colours_in(slice_picture(synthetic_field(0.1), walls, 2, 2e-3, {"x", 0.1}, {}, 800, 500)), 100u);
   EXPECT_GT(colours_in(wall_map_picture(walls, "fines", {"x", 0.1}, 800, 500)), 500u);
+}
+
+TEST(Render, TheSliceIsOfTheFirstRegionWithVelocityEvenIfALaterOneIsStoredMoreOften) {
+  const auto painted = [](bool with_thin_region) {
+    const Scratch folder;
+    VtkSeries walls(folder / "vtk", "walls"), fields(folder / "vtk", "fields");
+    walls.append(0.0, synthetic_walls());
+    fields.append(0.1, synthetic_field(0.1));
+    FieldFrame thin = synthetic_field(0.1);
+    thin.velocity.clear();
+    if (with_thin_region) fields.append(0.1, thin, 1), fields.append(0.15, thin, 1);
+    render(folder.path(), View::slice, 0.15, folder / "a.png");
+    return text_of(folder / "a.png");
+  };
+  EXPECT_EQ(painted(true), painted(false));
 }
 
 TEST(Render, AMissingViewSaysWhatIsMissing) {
