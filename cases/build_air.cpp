@@ -89,6 +89,45 @@ void describe_patch(const Case& c, const Surface& surface, int patch, lbm::LinkG
   drives.push_back(drive);
 }
 
+/// The walls beside a plug inlet carry the plug's speed at the opening and let go of it over six cells.
+///
+/// A plug that meets walls at rest loses momentum in the first cells that no viscosity accounts for: a bounce-back wall
+/// takes a third of the momentum of its cell in the first step, whatever the viscosity, and the stress that balances it
+/// builds up over some 20 steps. Measured in a channel 6 cells high at tau = 0.5003: the cell beside the wall falls to
+/// 0.55 of the inlet speed within two cells, and to 0.90 with the release. Errors of O(dx) beside the opening remain.
+void release_plug(Simulation& s, lbm::LinkGeometry& links) {
+  constexpr double cells = 6.0;
+  int inlet = -1;
+  for (std::size_t p = 0; p < links.boundaries.size(); ++p) {
+    const bool wall = links.boundaries[p].kind == lbm::BoundaryKind::wall;
+    if (wall && links.boundaries[p].profile) return;  // a moving wall: one speed for all walls that move
+    if (links.boundaries[p].kind != lbm::BoundaryKind::velocity_inlet) continue;
+    const Boundary* b = boundary_of(s.description.air, links.boundaries[p].patch);
+    if (inlet >= 0 || b == nullptr || b->profile != Profile::plug) return;
+    inlet = static_cast<int>(p);
+  }
+  if (inlet < 0) return;
+  auto opening = std::make_shared<geometry::TriangleMesh>();
+  opening->vertices = s.surface.mesh.vertices;
+  opening->solids = s.surface.mesh.solids;
+  for (std::size_t t = 0; t < s.surface.mesh.triangles.size(); ++t)
+    if (s.surface.patches.of_triangle[t] == inlet) {
+      opening->triangles.push_back(s.surface.mesh.triangles[t]);
+      opening->solid.push_back(0);
+    }
+  const auto tree = std::make_shared<const geometry::TriangleTree>(opening);
+  const double reach = cells * s.dx;
+  const auto direction = links.boundaries[inlet].profile;
+  for (std::size_t p = 0; p < links.boundaries.size(); ++p) {
+    if (links.boundaries[p].kind != lbm::BoundaryKind::wall) continue;
+    links.boundaries[p].profile = [tree, reach, direction](const Vec3& x) -> Vec3 {
+      const double d = tree->closest(x, reach).distance;
+      return d < reach ? Vec3((1.0 - d / reach) * direction(x)) : Vec3(Vec3::Zero());
+    };
+    s.models.patches[p].speed = s.models.patches[inlet].speed;
+  }
+}
+
 /// Length before the outlets over which the eddy viscosity rises: three quarters of the hydraulic diameter.
 double sponge_length(const Simulation& s) {
   double length = 0.0;
@@ -138,6 +177,8 @@ void build_lattice(const LatticeNumbers& numbers, Simulation& s) {
   links.patch_of_triangle = s.surface.patches.of_triangle;
   for (std::size_t p = 0; p < s.surface.patches.names.size(); ++p)
     describe_patch(c, s.surface, static_cast<int>(p), links, s.models.patches);
+
+  release_plug(s, links);
 
   lbm::AirOptions air;
   air.law = c.numerics.collision == Collision::bgk ? lbm::Law::bgk : lbm::Law::rr3;

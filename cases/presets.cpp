@@ -9,8 +9,8 @@ namespace puffin::cases {
 namespace {
 
 constexpr double unlimited = std::numeric_limits<double>::infinity();
-constexpr std::array all_presets{Preset{"quick", 0.40 / 0.234, 0.150}, Preset{"fast", 0.30 / 0.234, unlimited},
-                                 Preset{"default", 1.0, unlimited}, Preset{"accurate", 0.16 / 0.234, unlimited}};
+constexpr std::array all_presets{Preset{"quick", 1.5, 0.150}, Preset{"fast", 1.2, unlimited},
+                                 Preset{"default", 1.0, unlimited}, Preset{"accurate", 2.0 / 3.0, unlimited}};
 
 }  // namespace
 

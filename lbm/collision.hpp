@@ -14,7 +14,7 @@ namespace puffin::lbm {
 
 /// A constant in the number type of a law: a plain number, or a SIMD pack of equal lanes.
 template <class Real>
-inline Real constant(double value) {
+[[gnu::always_inline]] inline Real constant(double value) {
   if constexpr (requires { typename Real::value_type; })
     return Real(static_cast<typename Real::value_type>(value));
   else
@@ -44,7 +44,7 @@ struct Hydrodynamics {
 
 /// Moments of the shifted populations up to second order. Forced: F is the body force on the cell.
 template <bool Forced, class Real>
-inline Hydrodynamics<Real> hydrodynamics(const Real (&g)[19], const Real (&force)[3]) {
+[[gnu::always_inline]] inline Hydrodynamics<Real> hydrodynamics(const Real (&g)[19], const Real (&force)[3]) {
   Hydrodynamics<Real> h;
   const Real xy_p = g[7] + g[8], xy_m = g[9] + g[10];
   const Real xz_p = g[11] + g[12], xz_m = g[13] + g[14];
@@ -86,7 +86,7 @@ inline Hydrodynamics<Real> hydrodynamics(const Real (&g)[19], const Real (&force
 /// Smagorinsky closed form: tau = (tau0 + sqrt(tau0^2 + 18 sqrt2 L^2 |Pi|/rho))/2, |Pi| of the deviatoric part.
 /// Source: Hou, Sterling, Chen & Doolen, Fields Inst. Comm. 6, 151 (1996). `les` = 18 sqrt2 L^2, L in cells.
 template <class Real>
-inline Real smagorinsky_tau(const Real (&pi)[6], Real inverse_rho, Real tau0, Real les) {
+[[gnu::always_inline]] inline Real smagorinsky_tau(const Real (&pi)[6], Real inverse_rho, Real tau0, Real les) {
   using std::sqrt;
   const Real norm2 = pi[0] * pi[0] + pi[1] * pi[1] + pi[2] * pi[2] +
                      constant<Real>(2) * (pi[3] * pi[3] + pi[4] * pi[4] + pi[5] * pi[5]);
@@ -108,7 +108,7 @@ struct Rr3 {
   static constexpr bool regularised = true;
 
   template <bool Forced, class Real>
-  static inline void assemble(Real drho, Real rho, const Real (&u)[3], const Real (&p)[6], const Real (&force)[3],
+  [[gnu::always_inline]] static inline void assemble(Real drho, Real rho, const Real (&u)[3], const Real (&p)[6], const Real (&force)[3],
                               Real (&g)[19]) {
     // p = (1-omega) Pi
     const Real jx = rho * u[0], jy = rho * u[1], jz = rho * u[2];
@@ -144,7 +144,7 @@ struct Rr3 {
     const Real base = drho - constant<Real>(1.5) * (sxx + syy + szz);
     g[0] = constant<Real>(1.0 / 3.0) * base;
     const Real a18 = constant<Real>(1.0 / 18.0), sixth = constant<Real>(1.0 / 6.0), quarter = constant<Real>(0.25);
-    const auto axis = [&](Real s, Real k, Real t, Real& plus, Real& minus) {
+    const auto axis = [&](Real s, Real k, Real t, Real& plus, Real& minus) __attribute__((always_inline)) {
       const Real even = a18 * base + quarter * s;  // 4.5/18
       const Real odd = sixth * k - half * t;
       plus = even + odd;
@@ -155,7 +155,7 @@ struct Rr3 {
     axis(szz, kz, txxz + tyyz, g[5], g[6]);
     const Real a36 = constant<Real>(1.0 / 36.0), twelfth = constant<Real>(1.0 / 12.0), eighth = constant<Real>(0.125);
     const auto diagonal = [&](Real saa, Real sbb, Real sab, Real ka, Real kb, Real taab, Real tbba, Real& pp, Real& mm,
-                              Real& pm, Real& mp) {
+                              Real& pm, Real& mp) __attribute__((always_inline)) {
       const Real even = a36 * base + eighth * (saa + sbb);
       const Real cross = quarter * sab;
       const Real odd_a = twelfth * ka + quarter * tbba, odd_b = twelfth * kb + quarter * taab;

@@ -22,6 +22,7 @@ struct WallRun {
   std::int32_t count = 0;        // cells
   std::uint32_t directions = 0;  // bit i: the link in direction i is cut by a wall
   std::int32_t run = 0;          // index of the run in Rows
+  bool moving = false;           // some of its links end on a moving surface
   std::size_t coefficient = 0;   // first of (number of directions) x count coefficients, direction by direction
 };
 

@@ -25,11 +25,33 @@ inline Pack<T> load_float(const float* p) {
 }
 
 template <class P>
-inline P minimum(const P& a, const P& b) { return stdx::min(a, b); }
+[[gnu::always_inline]] inline P minimum(P a, P b) { return stdx::min(a, b); }
+
+/// The rare path of the positivity limiter: scales the stress p = (1-omega) Pi down, cell by cell, until no population
+/// falls below w_i/10. `g` holds the populations with the full stress.
+template <bool Forced, class P>
+[[gnu::noinline, gnu::cold]] void limit_stress(const P& drho, const P& rho, const P (&u)[3], P (&p)[6],
+                                               const P (&force)[3], P (&g)[19]) {
+  using T = typename P::value_type;
+  P equilibrium[19];
+  const P zero[6] = {P(T(0)), P(T(0)), P(T(0)), P(T(0)), P(T(0)), P(T(0))};
+  Rr3::assemble<Forced>(drho, rho, u, zero, force, equilibrium);
+  P scale(T(1));
+  for (int i = 0; i < 19; ++i) {
+    const P floor(T(-0.9 * d3q19::weight[i]));
+    const P room = equilibrium[i] - floor, drop = equilibrium[i] - g[i];
+    P s = room / stdx::max(drop, P(T(1e-30)));
+    where(!(g[i] < floor), s) = P(T(1));
+    where(s < P(T(0)), s) = P(T(0));
+    scale = minimum(scale, s);
+  }
+  for (auto& n : p) n = n * scale;
+  Rr3::assemble<Forced>(drho, rho, u, p, force, g);
+}
 
 /// One pack of cells: collides g in place. Returns the moments; counts limiter events among the first `lanes` lanes.
 template <class L, bool Forced, class P>
-inline CellMoments<P> collide(P (&g)[19], const P (&force_in)[3], const CollisionConstants& c, const P& les, int lanes,
+[[gnu::always_inline]] inline CellMoments<P> collide(P (&g)[19], const P (&force_in)[3], const CollisionConstants& c, const P& les, int lanes,
                               std::int64_t& limited) {
   using T = typename P::value_type;
   // In the step that changes dt, `force_in` is in the new units and the populations in the old: F = F'/r^2.
@@ -66,20 +88,7 @@ inline CellMoments<P> collide(P (&g)[19], const P (&force_in)[3], const Collisio
     const P lowest = minimum(minimum(g[0] * P(T(3)), low_axis * P(T(18))), low_diagonal * P(T(36)));
     const auto negative = lowest < P(T(-0.9));
     if (stdx::any_of(negative)) [[unlikely]] {
-      P equilibrium[19];
-      const P zero[6] = {P(T(0)), P(T(0)), P(T(0)), P(T(0)), P(T(0)), P(T(0))};
-      Rr3::assemble<Forced>(h.drho, h.rho, h.u, zero, force_in, equilibrium);
-      P scale(T(1));
-      for (int i = 0; i < 19; ++i) {
-        const P floor(T(-0.9 * d3q19::weight[i]));
-        const P room = equilibrium[i] - floor, drop = equilibrium[i] - g[i];
-        P s = room / stdx::max(drop, P(T(1e-30)));
-        where(!(g[i] < floor), s) = P(T(1));
-        where(s < P(T(0)), s) = P(T(0));
-        scale = minimum(scale, s);
-      }
-      for (auto& n : p) n = n * scale;
-      Rr3::assemble<Forced>(h.drho, h.rho, h.u, p, force_in, g);
+      limit_stress<Forced>(h.drho, h.rho, h.u, p, force_in, g);
       for (int l = 0; l < lanes; ++l) limited += negative[l] ? 1 : 0;
     }
   } else {
@@ -215,7 +224,7 @@ inline void reflect(const WallInput<T>& in, const WallRun& wall, int n, const Lo
     const V a = load_float_at(in.back + at), b = load_float_at(in.own + at);
     const V out = load(here);
     V f = out + a * (load(behind) - out) + b * (load(own) - out);
-    if (in.moving) f = f + constant<V>(in.wall_speed) * load_float_at(in.moving + at);
+    if (wall.moving) f = f + constant<V>(in.wall_speed) * load_float_at(in.moving + at);
     incoming[links] = f;
     target[links] = beyond;
     imbalance = imbalance + (out - f);

@@ -177,7 +177,7 @@ Links build_links(const Rows& rows, const LinkGeometry& surface, WallScheme sche
       if (previous_end == n && links.walls.back().directions == walls) {
         ++links.walls.back().count;
       } else {
-        links.walls.push_back({slot, 1, walls, static_cast<std::int32_t>(r), 0});
+        links.walls.push_back({slot, 1, walls, static_cast<std::int32_t>(r)});
       }
       previous_end = n + 1;
     }
@@ -193,7 +193,7 @@ Links build_links(const Rows& rows, const LinkGeometry& surface, WallScheme sche
   links.own.assign(total, 0.0F);
   links.wall_patch.assign(total, 0);
   if (any_moving) links.moving.assign(total, 0.0F);
-  for (const auto& w : links.walls) {
+  for (auto& w : links.walls) {
     const Run& run = runs[w.run];
     for (int n = 0; n < w.count; ++n) {
       const std::ptrdiff_t slot = w.first + n;
@@ -221,6 +221,7 @@ Links build_links(const Rows& rows, const LinkGeometry& surface, WallScheme sche
           const Vec3 direction(c[0], c[1], c[2]);
           const Vec3 u = surface.boundaries[patch].profile(rows.centre(slot) + q * dx * direction);
           const double share = q < 0.5 ? 1.0 : 1.0 / (2.0 * q);
+          w.moving = w.moving || u.norm() > 0.0;
           links.moving[at] = static_cast<float>(-6.0 * d3q19::weight[i] * share * direction.dot(u));
         }
       }
@@ -237,38 +238,37 @@ Links build_links(const Rows& rows, const LinkGeometry& surface, WallScheme sche
     }
   }
 
-  // Inlets: the flow through the links equals mean speed times the true area of the patch.
+  // Inlets: the mean speed over the cells of the opening is the one asked for. On a grid that does not fit the opening
+  // the cells cover a slightly different area; keeping the speed keeps the dynamic head, to which the pressure drop is
+  // proportional (keeping the flow rate instead would put the error of the area twice into the pressure).
   links.opening_cells_area.assign(surface.boundaries.size(), 0.0);
   for (std::size_t b = 0; b < surface.boundaries.size(); ++b) {
     const Boundary& boundary = surface.boundaries[b];
     if (boundary.kind != BoundaryKind::velocity_inlet && boundary.kind != BoundaryKind::pressure_outlet) continue;
-    double area = 0.0;
     Vec3 normal = Vec3::Zero();
     for (std::size_t t = 0; t < surface.patch_of_triangle.size(); ++t)
-      if (surface.patch_of_triangle[t] == static_cast<int>(b)) {
-        area += surface.mesh->area(static_cast<int>(t));
-        normal += 0.5 * surface.mesh->area_vector(static_cast<int>(t));
-      }
+      if (surface.patch_of_triangle[t] == static_cast<int>(b)) normal += surface.mesh->area_vector(static_cast<int>(t));
     normal.normalize();
-    double gain = 0.0, lattice_area = 0.0;
-    std::size_t count = 0;
+    double gain = 0.0, speed = 0.0, area = 0.0;
     for (const auto* list : {&links.inlets, &links.outlets})
-      for (const auto& link : *list)
-        if (link.patch == static_cast<int>(b)) {
-          const auto& c = d3q19::velocity[link.direction];
-          lattice_area += 6.0 * d3q19::weight[link.direction] * normal.dot(Vec3(c[0], c[1], c[2]));
-          gain += link.gain;
-          ++count;
-        }
-    links.opening_cells_area[b] = lattice_area;
-    if (count == 0)
+      for (const auto& link : *list) {
+        if (link.patch != static_cast<int>(b)) continue;
+        gain += link.gain;
+        if (link.direction > 6) continue;  // faces of cells alone make up the area
+        const auto& c = d3q19::velocity[link.direction];
+        const double face = std::abs(normal.dot(Vec3(c[0], c[1], c[2])));
+        area += face;
+        if (boundary.profile) speed -= face * normal.dot(boundary.profile(rows.centre(link.slot)));
+      }
+    links.opening_cells_area[b] = area;
+    if (area == 0.0)
       throw std::runtime_error("the opening '" + boundary.patch + "' touches no cell of the fluid; dx is too large for it");
-    if (boundary.kind == BoundaryKind::velocity_inlet) {
-      if (!(gain > 0.0)) throw std::runtime_error("the profile of the inlet '" + boundary.patch + "' does not point into the fluid");
-      const double scale = area / (dx * dx) / gain;
-      for (auto& link : links.inlets)
-        if (link.patch == static_cast<int>(b)) link.gain *= scale;
-    }
+    if (boundary.kind != BoundaryKind::velocity_inlet) continue;
+    if (!(gain > 0.0) || !(speed > 0.0))
+      throw std::runtime_error("the profile of the inlet '" + boundary.patch + "' does not point into the fluid");
+    // The mean of the profile over the cells is brought to 1, then the links to the flow of all cells at that mean.
+    for (auto& link : links.inlets)
+      if (link.patch == static_cast<int>(b)) link.gain *= area / gain;
   }
 
   for (const auto& [ghost, active] : rows.periodic_images()) {
