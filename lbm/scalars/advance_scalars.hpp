@@ -8,12 +8,11 @@
 namespace puffin::lbm {
 
 // What the air must provide in FaceFluxes, beside what is said there:
-//  * mass[d] and open[d] at slot s belong to the face between s and s + e_d. So the low face of the first cell of a row
-//  is
-//    found at the ghost below it. Faces between two ghosts are not read, values at closed faces (open 0) are not used.
+//  * mass[d] and open[d] at slot s belong to the face between s and s + e_d. So the low face of the first cell of a
+//    row is found at the ghost below it. Faces between two ghosts are not read, values at closed faces (open 0) must be
+//    finite but count for nothing.
 //  * Across a periodic boundary the one face is held twice: at the last cell of the row and at the ghost that mirrors
-//  it
-//    below the first cell. Both must hold the same mass and open = 1.
+//    it below the first cell. Both must hold the same mass and open = 1.
 //  * open = 2 exactly where one side is active and the other a ghost that has a patch in ScalarFields.
 //  * density > 0 at every active cell. If density(next update) = density - steps * (net outflow of mass), a constant
 //    concentration stays constant to rounding. Otherwise the difference is taken up silently when the carried air is

@@ -39,7 +39,9 @@ void check_fluxes(const Rows& rows, const FaceFluxes& fluxes, const ScalarWork& 
           if (open == 0 || rows.is_active(beside)) continue;
           if (!std::isfinite(fluxes.mass[d][face])) refuse(rows, s, d, "the mass flux is not a number");
           if (open == 2 && work.opening_patch[beside] < 0) refuse(rows, s, d, "an opening without a patch");
+          const auto c = rows.cell(beside);
           if (open == 1 && work.opening_patch[beside] >= 0) refuse(rows, s, d, "an opening marked as an inner face");
+          if (open == 1 && rows.active_slot(c[0], c[1], c[2]) < 0) refuse(rows, s, d, "open, but no cell behind it");
         }
     }
   for (int d = 0; d < 3; ++d)

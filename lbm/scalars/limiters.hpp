@@ -13,6 +13,7 @@ enum class Scheme { upwind, minmod, van_leer, mc };
 namespace detail {
 [[gnu::always_inline]] inline double magnitude(double x) { return __builtin_fabs(x); }
 [[gnu::always_inline]] inline double smaller(double x, double y) { return x < y ? x : y; }
+[[gnu::always_inline]] inline double larger(double x, double y) { return x > y ? x : y; }
 }  // namespace detail
 
 /// First order: no slope.

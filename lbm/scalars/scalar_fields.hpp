@@ -30,13 +30,15 @@ struct ScalarLaw {
   WallRule wall = WallRule::reflect;
   /// [patch] the concentration held on an opening: inflow brings it, and the scalar diffuses to and from the face, half
   /// a cell away. No value (or a shorter list): inflow brings none, and nothing diffuses through.
-  std::vector<std::optional<double>> fixed;
+  std::vector<std::optional<double>> fixed = {};
 };
 
 struct ScalarOptions {
   std::vector<ScalarLaw> scalar;
-  double cfl = 0.8;        // largest part of a cell's air that leaves it in one sweep, in (0, 1)
-  bool skip_empty = true;  // leave out runs that hold nothing and have no neighbour that does (changes no result)
+  double cfl = 0.8;  // largest part of a cell's air that leaves it in one sweep, in (0, 1)
+  /// Leave out runs that hold nothing (less than 1e-30 of the scalar) and have no neighbour that does. Changes nothing
+  /// else as long as an update is no longer than max_steps; beyond, the flow where the scalars are sets the sub-steps.
+  bool skip_empty = true;
 };
 
 /// What passed the boundaries since the start, in amounts.

@@ -1,10 +1,10 @@
 #pragma once
 // One sweep of the scalar transport along one direction, for one run of cells.
 //
-// A cell with air mass theta and concentration Y loses through its high face, if the air flows out there by the mass a
-// > 0,
+// A cell with air mass theta and concentration Y loses through its high face, if the air flows out there by the mass
+// a > 0, the amount
 //   a (Y + (1 - a/theta)/2 slope),   slope: limited rise of Y across the cell (limiters.hpp),
-// and through its low face the mirror image; with diffusion, gamma Y more through each face that is open to a
+// and through its low face the mirror image; with diffusion, gamma Y' more through each face that is open to a
 // neighbour, which does the same in return. `outgoing` computes what each cell loses, `update` takes it from there and
 // gives it to the neighbour, and carries the air: theta <- theta - (net outflow). Both sides use the same number:
 // conservative to rounding.
@@ -14,7 +14,10 @@
 // between the cell and its neighbours while the outflow through both faces is at most theta. The new Y is the
 // air-weighted mean of what stayed and what came. With diffusion the weight of Y itself is at least theta (1 - nu)^2,
 // nu = outflow / theta, so that the sum stays a mean as long as gamma times the number of exchanging faces is below
-// that. Source of the scheme: B. van Leer, J. Comput. Phys. 23, 276 (1977); of the carried air: Easter, Mon. Weather
+// that. Y' = Y - drift slope is the concentration half a step later, drift = (net outflow to the high side)/(2 theta):
+// it makes the diffusion second order in time. The neighbour upstream, of which Y' takes up to the part 2 drift, still
+// counts with a positive weight while drift <= 1/6 (two times 1/3 lost, 1 - 1/3 received), so it is clipped there.
+// Source of the scheme: B. van Leer, J. Comput. Phys. 23, 276 (1977); of the carried air: R. C. Easter, Mon. Weather
 // Rev. 121, 297 (1993).
 
 #include <cstddef>
@@ -48,9 +51,24 @@ struct SweepScalar {
   double* out_low = nullptr;
 };
 
+/// The faces of a run in all three directions, and what they ask of the number of steps (max_steps.hpp).
+struct LimitRun {
+  int count = 0;
+  const double* mass[3] = {};        // [cell] through the high face
+  const std::uint8_t* open[3] = {};  // [cell] of the high face
+  std::ptrdiff_t low[3] = {};        // slot offsets to the low neighbours
+  const double* air = nullptr;       // [cell] theta
+  double cfl = 0.0;
+};
+struct LimitFound {
+  double demand = 0.0;     // largest cfl / steps
+  double least_air = 0.0;  // smallest theta
+};
+
 struct SweepKernel {
   void (*outgoing)(const SweepRun&, const SweepScalar*, int scalars) = nullptr;
   void (*update)(const SweepRun&, const SweepScalar*, int scalars) = nullptr;
+  LimitFound (*limit)(const LimitRun&) = nullptr;
 };
 
 /// The same arithmetic, compiled for several processors: equal bits.

@@ -5,9 +5,9 @@ namespace puffin::lbm {
 
 SweepKernel avx2_sweep() {
 #if defined(__AVX2__)
-  return {outgoing, update};
+  return {outgoing, update, limit};
 #else
-  static_cast<void>(outgoing), static_cast<void>(update);
+  static_cast<void>(outgoing), static_cast<void>(update), static_cast<void>(limit);
   return {};
 #endif
 }

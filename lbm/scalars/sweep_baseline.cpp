@@ -2,7 +2,7 @@
 
 namespace puffin::lbm {
 
-SweepKernel baseline_sweep() { return {outgoing, update}; }
+SweepKernel baseline_sweep() { return {outgoing, update, limit}; }
 
 SweepKernel select_sweep() {
 #if defined(__x86_64__)

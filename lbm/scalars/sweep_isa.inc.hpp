@@ -6,12 +6,14 @@
 namespace puffin::lbm {
 namespace {
 
+constexpr double largest_drift = 1.0 / 6.0;  // see sweep.hpp
 constexpr int tile = 128;  // cells done at a time: the coefficients, shared by all scalars, stay in the first cache
 
 struct Coefficients {
   alignas(64) double out_high[tile], out_low[tile];      // air leaving through the faces
   alignas(64) double reach_high[tile], reach_low[tile];  // (1 - out/theta)/2
   alignas(64) double link_high[tile], link_low[tile];    // 1: a neighbour behind the face
+  alignas(64) double drift[tile];                        // half the net outflow to the high side per theta, clipped
 };
 
 /// 1 for faces that air passes (1 inner, 2 opening), and 1 for those with a neighbour behind (1).
@@ -34,6 +36,9 @@ void shared_by_scalars(int n, const double* __restrict mass, const double* __res
     c.out_low[i] = out_low;
     c.reach_high[i] = 0.5 - 0.5 * out_high * per_air;
     c.reach_low[i] = 0.5 - 0.5 * out_low * per_air;
+    const double drift = c.reach_low[i] - c.reach_high[i];
+    const double size = detail::smaller(detail::magnitude(drift), largest_drift);
+    c.drift[i] = drift < 0.0 ? -size : size;
     c.link_high[i] = links(open[i]);
     c.link_low[i] = links(open_low[i]);
   }
@@ -44,8 +49,9 @@ void leaving(int n, const double* y_low, const double* y, const double* y_high, 
              double* __restrict out_high, double* __restrict out_low) {
   for (int i = 0; i < n; ++i) {
     const double slope = Limiter::slope((y[i] - y_low[i]) * c.link_low[i], (y_high[i] - y[i]) * c.link_high[i]);
-    out_high[i] = c.out_high[i] * (y[i] + c.reach_high[i] * slope) + exchange * c.link_high[i] * y[i];
-    out_low[i] = c.out_low[i] * (y[i] - c.reach_low[i] * slope) + exchange * c.link_low[i] * y[i];
+    const double midway = exchange * (y[i] - c.drift[i] * slope);
+    out_high[i] = c.out_high[i] * (y[i] + c.reach_high[i] * slope) + c.link_high[i] * midway;
+    out_low[i] = c.out_low[i] * (y[i] - c.reach_low[i] * slope) + c.link_low[i] * midway;
   }
 }
 
@@ -100,6 +106,57 @@ void update(const SweepRun& run, const SweepScalar* scalars, int count) {
                    per_air, s.amount + from, s.concentration + from);
     }
   }
+}
+
+struct Outflow {
+  alignas(64) double out[3][tile], net[3][tile];  // through both faces, per air step
+};
+
+void outflow(int n, const double* __restrict mass, const double* __restrict mass_low,
+             const std::uint8_t* __restrict open, const std::uint8_t* __restrict open_low, double* __restrict out,
+             double* __restrict net) {
+  for (int i = 0; i < n; ++i) {
+    const double high = mass[i] * passes(open[i]), low = mass_low[i] * passes(open_low[i]);
+    out[i] = positive_part(high) + positive_part(-low);
+    net[i] = high - low;
+  }
+}
+
+LimitFound limit(const LimitRun& run) {
+  using detail::larger;
+  constexpr int lanes = 8;  // partial maxima that the compiler can keep in one register or two
+  Outflow f;
+  double most[lanes] = {}, least[lanes];
+  for (double& l : least) l = run.air[0];
+  for (int from = 0; from < run.count; from += tile) {
+    const int n = run.count - from < tile ? run.count - from : tile;
+    for (int d = 0; d < 3; ++d)
+      outflow(n, run.mass[d] + from, run.mass[d] + from + run.low[d], run.open[d] + from,
+              run.open[d] + from + run.low[d], f.out[d], f.net[d]);
+    alignas(64) double need[tile], air[tile];
+    for (int i = 0; i < n; ++i) {
+      const double x = f.net[0][i], y = f.net[1][i], z = f.net[2][i];
+      const double first = larger(f.out[0][i], f.out[2][i]);
+      const double second = f.out[1][i] + run.cfl * larger(x, z);
+      const double third = larger(f.out[2][i] + run.cfl * (x + y), f.out[0][i] + run.cfl * (z + y));
+      const double between = larger(larger(x, z), larger(x, z) + y);
+      const double theta = run.air[from + i];
+      need[i] = larger(larger(first, second), larger(third, 2.0 * run.cfl * between)) / theta;
+      air[i] = theta;
+    }
+    for (int i = n; i < (n + lanes - 1) / lanes * lanes; ++i) need[i] = 0.0, air[i] = air[0];
+    for (int i = 0; i < n; i += lanes)
+      for (int l = 0; l < lanes; ++l) {
+        most[l] = larger(need[i + l], most[l]);
+        least[l] = detail::smaller(air[i + l], least[l]);
+      }
+  }
+  LimitFound found{most[0], least[0]};
+  for (int l = 1; l < lanes; ++l) {
+    found.demand = larger(most[l], found.demand);
+    found.least_air = detail::smaller(least[l], found.least_air);
+  }
+  return found;
 }
 
 }  // namespace

@@ -1,0 +1,65 @@
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include "lbm/scalars/sweep.hpp"
+#include "tests/lbm/scalars/scene.hpp"
+
+namespace puffin::lbm {
+namespace {
+
+TEST(SameBits, for_any_number_of_threads) {
+  std::vector<std::vector<double>> first;
+  double left = 0.0;
+  for (const int threads : {1, 2, 5}) {
+    tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    Scene s = make_scene({50, 40, 12}, {false, false, false}, true);  // several chunks
+    set_curl(s, [](int d, int i, int j, int k) { return 0.03 * noise(1, d, i, j, k); });
+    for (auto& m : s.fluxes.mass[0]) m += 0.05;
+    ScalarFields f = s.fields(3);
+    ScalarBudget b = s.budget(3);
+    ScalarOptions o{{{Scheme::mc, 1e-4}, {Scheme::van_leer, 0.5}, {Scheme::upwind, 0.3, WallRule::absorb}}};
+    for (int n = 0; n < 12; ++n) {
+      for (int k = 0; k < 3; ++k) f.amount[k][s.at(20 + n % 3, 20, 6)] += 1.0 / 3.0;
+      advance_scalars(s.rows, s.fluxes, 7.0, o, f, b);
+    }
+    if (first.empty()) {
+      first = f.amount;
+      left = gone(b, 0) + gone(b, 1) + gone(b, 2);
+      EXPECT_GT(s.rows.chunks().size(), 3u);
+    } else {
+      EXPECT_EQ(f.amount, first) << threads;
+      EXPECT_EQ(gone(b, 0) + gone(b, 1) + gone(b, 2), left) << threads;
+    }
+  }
+}
+
+TEST(SameBits, for_every_instruction_set) {
+  const SweepKernel fast = select_sweep(), plain = baseline_sweep();
+  constexpr int n = 137;
+  std::vector<double> mass(n + 2), air(n + 2), amount(n + 2), y(n + 2);
+  std::vector<std::uint8_t> open(n + 2);
+  for (int i = 0; i < n + 2; ++i) {
+    mass[i] = 0.2 * noise(1, i, 0, 0, 0);
+    air[i] = 1.0 + 0.1 * noise(2, i, 0, 0, 0);
+    amount[i] = 1.0 + noise(3, i, 0, 0, 0);
+    y[i] = amount[i] / air[i];
+    open[i] = static_cast<std::uint8_t>(3.0 * (0.5 + 0.49 * noise(4, i, 0, 0, 0)));
+  }
+  for (const Scheme scheme : {Scheme::upwind, Scheme::minmod, Scheme::van_leer, Scheme::mc}) {
+    std::vector<double> results[2];
+    for (const bool vector : {false, true}) {
+      const SweepKernel& kernel = vector ? fast : plain;
+      std::vector<double> a = air, c = amount, conc = y, high(n + 2), low(n + 2);
+      const SweepRun run{n, -1, 1, mass.data() + 1, open.data() + 1, 3.0, a.data() + 1};
+      const SweepScalar scalar{scheme, 1e-3, c.data() + 1, conc.data() + 1, high.data() + 1, low.data() + 1};
+      kernel.outgoing(run, &scalar, 1);
+      kernel.update(run, &scalar, 1);
+      for (const auto* v : {&a, &c, &conc, &high, &low})
+        results[vector].insert(results[vector].end(), v->begin(), v->end());
+    }
+    EXPECT_EQ(results[0], results[1]);
+  }
+}
+
+}  // namespace
+}  // namespace puffin::lbm
