@@ -98,9 +98,8 @@ Dose dose_of(const Simulation& s) {
     const double pitch = (1.0 + spec.gap) * parcel_diameter(c.diameter, c.parcel);
     spec.floor_diameter = pitch * std::cbrt(4.0 / std::numbers::pi * static_cast<double>(c.count) / c.parcel) * 1.1;
   }
-  const auto& walls = *s.models.walls;
   return place_dose(
-      spec, [&](const Vec3& x) { return s.tree->inside(x); }, [&](const Vec3& x) { return walls.clearance(x, 1.0); });
+      spec, [&](const Vec3& x) { return s.tree->inside(x); }, [&](const Vec3& x) { return s.tree->closest(x).distance; });
 }
 
 }  // namespace

@@ -11,11 +11,14 @@ using geometry::Vec3;
 
 namespace {
 
-/// 18 sqrt2 L^2 with L = min(C_s, kappa d), d the wall distance in cells, and C_s raised up to threefold in the sponge.
+/// 18 sqrt2 L^2 with L = min(C_s, d/14), d the wall distance in cells, and C_s raised up to threefold in the sponge.
+/// d/14: the cell beside a wall (y+ of 20 to 60 at device scale) then carries the stress of the log law,
+/// tau_w = rho (L u/d)^2 = rho (u/u+)^2 with u+ = 14. With kappa d instead (0.2 at d = 1/2, so C_s) the friction of a
+/// channel 6 cells high came out five times too large: docs/decisions/0002-mixing-length-at-walls.md.
 std::vector<float> eddy_lengths(const Rows& rows, const LinkGeometry& surface, const AirOptions& options) {
   std::vector<float> les;
   if (options.smagorinsky <= 0.0) return les;
-  constexpr double kappa = 0.41;
+  constexpr double slope = 1.0 / 14.0;
   auto walls = std::make_shared<geometry::TriangleMesh>(), outlets = std::make_shared<geometry::TriangleMesh>();
   walls->vertices = outlets->vertices = surface.mesh->vertices;
   for (std::size_t t = 0; t < surface.mesh->triangles.size(); ++t) {
@@ -32,7 +35,7 @@ std::vector<float> eddy_lengths(const Rows& rows, const LinkGeometry& surface, c
   };
   const auto wall_tree = tree_of(walls), outlet_tree = tree_of(outlets);
   les.assign(rows.slots(), 0.0F);
-  const double dx = rows.dx(), reach = options.smagorinsky / kappa * dx;
+  const double dx = rows.dx(), reach = options.smagorinsky / slope * dx;
   for_each_chunk(rows, [&](int, const Chunk& chunk) {
     for (int r = chunk.first_run; r < chunk.last_run; ++r)
       for (int n = 0; n < rows.runs()[r].count; ++n) {
@@ -43,7 +46,7 @@ std::vector<float> eddy_lengths(const Rows& rows, const LinkGeometry& surface, c
           const double d = outlet_tree->closest(x, options.sponge_length).distance;
           if (d < options.sponge_length) length *= 3.0 - 2.0 * d / options.sponge_length;
         }
-        if (wall_tree) length = std::min(length, kappa * wall_tree->closest(x, 3.0 * reach).distance / dx);
+        if (wall_tree) length = std::min(length, slope * wall_tree->closest(x, 3.0 * reach).distance / dx);
         les[slot] = static_cast<float>(18.0 * std::sqrt(2.0) * length * length);
       }
   });

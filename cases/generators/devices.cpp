@@ -224,7 +224,7 @@ std::vector<ParameterInfo> device_parameters(const Defaults& d) {
   return {
       {"inlet_width", 7.0 * mm, "m", "width (y) of the inlet", given, positive},
       {"inlet_height", d.inlet_height, "m", "height (z) of the inlet", given, positive},
-      {"inlet_length", 8.0 * mm, "m", "from the inlet to the step, the lip included", assumed, positive},
+      {"inlet_length", 4.0 * mm, "m", "from the inlet to the step, the lip included", assumed, positive},
       {"lip_height", d.lip_height, "m", "height of the inlet's end, its ceiling raised; 0: as the inlet", d.lip},
       {"lip_length", 2.0 * mm, "m", "length of the raised end, before the step", assumed},
       {"step_height", d.step_height, "m", "drop of the floor at the backward-facing step", assumed},
