@@ -23,6 +23,9 @@ constexpr double longest_way_near_walls = 0.2;   // in radii, between two looks
 double evaluate_all(double h, double time, double horizon, const Rules& rules, Cluster& cluster, bool& live) {
   for (Body& body : cluster.bodies) body.force = body.torque = Vector3d::Zero();
   live = false;
+  cluster.fastest = 0.0;
+  for (const Body& body : cluster.bodies) cluster.fastest = std::max(cluster.fastest, body.v.squaredNorm());
+  cluster.fastest = std::sqrt(cluster.fastest);
   double step = horizon;
   for (std::size_t i = 0; i < cluster.touches.size(); ++i)
     step = std::min(step, evaluate(i, h, time, step, rules, cluster, live));
@@ -150,6 +153,8 @@ Touch& add_touch(std::int32_t a, std::int32_t b, const Rules& rules, Cluster& cl
   } else {
     touch.pair = pair_law(rules.wall, first.radius, first.single_radius, never, never, first.mass);
     touch.reach = first.radius;
+    touch.next_wall = cluster.bodies[a].first_wall;
+    cluster.bodies[a].first_wall = static_cast<std::int32_t>(cluster.touches.size()) - 1;
   }
   return touch;
 }
@@ -166,28 +171,32 @@ void set_dashpots(const Rules& rules, Touch& touch) {
 void match_walls(std::int32_t b, double time, const Rules& rules, Cluster& cluster) {
   constexpr double same_side = 0.8;  // cosine: the normal of one place turns by less between two looks
   const std::vector<WallPlane>& planes = cluster.walls[b].planes;
-  const std::size_t old = cluster.touches.size();
-  std::vector<std::int8_t> taken(old, 0);
+  const std::int32_t old = cluster.bodies[b].first_wall;
+  if (planes.empty() && old < 0) return;
+  std::uint64_t taken = 0;  // bits in the order of the chain
   for (const WallPlane& plane : planes) {
-    std::size_t best = old;
+    std::int32_t best = -1;
+    int best_bit = 0, bit = 0;
     double nearest = same_side;
-    for (std::size_t i = 0; i < old; ++i) {
+    for (std::int32_t i = old; i >= 0; i = cluster.touches[i].next_wall, ++bit) {
       const Touch& touch = cluster.touches[i];
-      if (touch.a != b || touch.b >= 0 || touch.lost || taken[i]) continue;
+      if (touch.lost || bit > 63 || (taken >> bit & 1)) continue;
       const bool live = touch.memory.phase != ContactPhase::free;
       const double cosine = plane.normal.dot(live ? touch.memory.normal : touch.plane.normal);
-      if (cosine > nearest) nearest = cosine, best = i;
+      if (cosine > nearest) nearest = cosine, best = i, best_bit = bit;
     }
-    if (best < old) {
-      taken[best] = 1;
+    if (best >= 0) {
+      taken |= std::uint64_t{1} << best_bit;
       cluster.touches[best].plane = plane;
+      cluster.touches[best].idle_until = 0.0;
     } else {
       add_touch(b, -1, rules, cluster).plane = plane;
     }
   }
-  for (std::size_t i = 0; i < old; ++i) {
+  int bit = 0;
+  for (std::int32_t i = old; i >= 0; i = cluster.touches[i].next_wall, ++bit) {
     Touch& touch = cluster.touches[i];
-    if (touch.a != b || touch.b >= 0 || touch.lost || taken[i]) continue;
+    if (touch.lost || (bit <= 63 && (taken >> bit & 1))) continue;
     if (touch.memory.phase != ContactPhase::free) end_contact(time, cluster, touch);
     touch.lost = true;
   }

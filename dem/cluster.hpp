@@ -51,6 +51,7 @@ struct Body {
   Eigen::Vector3d start, course;  // position and velocity at the start of the air step
   double deviation = 0.0;         // largest distance from the straight course [m]
   Eigen::Vector3d imbalance;      // of a sleeper: change of force by what is outside the cluster [N]
+  std::int32_t first_wall = -1;   // chain of its wall touches, through Touch::next_wall
   double limit = 0.0;             // of a sleeper: largest change of force it sleeps through [N]
 };
 
@@ -66,6 +67,8 @@ struct Touch {
   double spring_force = 0.0, dashpot_force = 0.0;        // normal, at the last evaluation [N]
   Eigen::Vector3d slip_force = Eigen::Vector3d::Zero();  // tangential, on a [N]
   WallPlane plane;
+  std::int32_t next_wall = -1;
+  double idle_until = 0.0, latest = 0.0;  // a candidate need not be looked at before, but must be by then [s]
 };
 
 struct Cluster {
@@ -74,6 +77,7 @@ struct Cluster {
   std::vector<Touch> touches;
   std::vector<ContactBegun> begun;
   std::vector<ContactEnded> ended;
+  double fastest = 0.0;          // speed of the fastest body at the last evaluation [m/s]
   std::int64_t body_steps = 0;   // moving bodies times sub-steps
   double largest_overlap = 0.0;  // part of the (smaller) diameter
   bool disturbed = false;        // a sleeper must wake: the result is worthless

@@ -244,13 +244,25 @@ double evaluate(std::size_t index, double h, double time, double horizon, const 
   Body& a = cluster.bodies[touch.a];
   Body* b = touch.b >= 0 ? &cluster.bodies[touch.b] : nullptr;
   Contact& c = touch.memory;
+  if (c.phase == ContactPhase::free) {
+    if (touch.lost) return never;
+    if (time < touch.idle_until) return touch.latest - time;
+  }
   Meeting m = meet(touch, a, b);
   const SurfaceLaw& law = b != nullptr ? rules.carrier : rules.wall;
   double share = h;  // the part of the last sub-step during which the present force acted
 
   if (c.phase == ContactPhase::free) {
-    if (touch.lost || m.overlap < -touching * a.radius) {
-      return touch.lost ? never : time_to_touch(m, horizon, rules, touch, a, b);
+    if (m.overlap < -touching * a.radius) {
+      // Even two of the fastest of the cluster need this long: if that is many sub-steps, leave it alone for half of
+      // it.
+      const double soonest = -m.overlap / (2.0 * cluster.fastest);
+      if (soonest > 4.0 * horizon) {
+        touch.latest = time + soonest;
+        touch.idle_until = time + 0.5 * soonest;
+        return never;
+      }
+      return time_to_touch(m, horizon, rules, touch, a, b);
     }
     const double parting = m.normal.dot(centre_velocity(a, b, true));
     if (parting > 0.0 || (parting == 0.0 && m.normal.dot(acceleration(a, b)) >= 0.0)) return never;
@@ -348,7 +360,12 @@ double evaluate(std::size_t index, double h, double time, double horizon, const 
   live = true;
 
   // The next sub-step.
-  double step = allowed_step(rules, law, touch, tangent);
+  // A quiet bond (little energy against the well, little of its strength in use) needs only stability: t_c/8.
+  const double energy = touch.pair.mass * closing * closing;
+  const bool quiet =
+      bonded && energy < 0.1 * touch.pair.well && m.overlap < 0.5 * allowed && -spring < 0.5 * touch.pair.pull_off;
+  const double coarse = quiet ? rules.integration.steps_per_contact / 8.0 : 1.0;
+  double step = coarse * allowed_step(rules, law, touch, tangent);
   if (closing > 0.0) {
     if (m.overlap > allowed)
       step = std::min(step, 0.1 * std::max(2.0 * allowed - m.overlap, 0.01 * allowed) / closing);
@@ -361,9 +378,8 @@ double evaluate(std::size_t index, double h, double time, double horizon, const 
     if (fall < step) step = std::max(fall, 0.25 * step);
   }
   // Near separation, slow enough to bond: the stiffer spring of tension is about to take over.
-  if (touch.pair.well > 0.0 && m.overlap > 0.0 &&
-      (bonded || closing * closing * touch.pair.mass < 8.0 * touch.pair.well)) {
-    const double pull_step = allowed_step(rules, law, touch, std::max(tangent, touch.pair.pull_stiffness));
+  if (touch.pair.well > 0.0 && m.overlap > 0.0 && (bonded || energy < 8.0 * touch.pair.well)) {
+    const double pull_step = coarse * allowed_step(rules, law, touch, std::max(tangent, touch.pair.pull_stiffness));
     const double fall = m.overlap / std::max(std::abs(closing), 1e-300);
     if (closing < 0.0)
       step = std::min(step, std::max(pull_step, 0.5 * fall));
