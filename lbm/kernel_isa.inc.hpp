@@ -17,6 +17,14 @@ namespace stdx = std::experimental;
 template <class T>
 using Pack = stdx::native_simd<T>;
 
+/// Calls body(0) ... body(18) with the directions as constants, so that arrays of packs live in registers.
+template <class F>
+[[gnu::always_inline]] inline void for_directions(F&& body) {
+  [&]<int... I>(std::integer_sequence<int, I...>) __attribute__((always_inline)) {
+    (body(std::integral_constant<int, I>()), ...);
+  }(std::make_integer_sequence<int, 19>());
+}
+
 template <class T>
 inline Pack<T> load_float(const float* p) {
   Pack<T> v;
@@ -55,7 +63,7 @@ template <class L, bool Forced, class P>
                               std::int64_t& limited) {
   using T = typename P::value_type;
   // In the step that changes dt, `force_in` is in the new units and the populations in the old: F = F'/r^2.
-  const P old_force = P(T(1.0 / (c.rescale * c.rescale)));
+  const P old_force = P(T(Forced ? 1.0 / (c.rescale * c.rescale) : 1.0));
   const P force_before[3] = {force_in[0] * old_force, force_in[1] * old_force, force_in[2] * old_force};
   auto h = detail::hydrodynamics<Forced>(g, force_before);
   CellMoments<P> found{h.drho, h.u[0], h.u[1], h.u[2]};
@@ -95,7 +103,7 @@ template <class L, bool Forced, class P>
     const P tau = detail::smagorinsky_tau(h.pi, P(T(1)) / h.rho, P(T(c.tau0)), les);
     const P omega = P(T(1)) / tau;
     const P u2 = h.u[0] * h.u[0] + h.u[1] * h.u[1] + h.u[2] * h.u[2];
-    for (int i = 0; i < 19; ++i) {
+    for_directions([&](auto i) __attribute__((always_inline)) {
       const P w(T(d3q19::weight[i]));
       const P cx(T(d3q19::velocity[i][0])), cy(T(d3q19::velocity[i][1])), cz(T(d3q19::velocity[i][2]));
       const P cu = cx * h.u[0] + cy * h.u[1] + cz * h.u[2];
@@ -106,29 +114,24 @@ template <class L, bool Forced, class P>
         const P uf = h.u[0] * force_in[0] + h.u[1] * force_in[1] + h.u[2] * force_in[2];
         g[i] = g[i] + (P(T(1)) - P(T(0.5)) * omega) * w * (P(T(3)) * (cf - uf) + P(T(9)) * cu * cf);
       }
-    }
+    });
   }
   return found;
 }
 
-template <class T, class L, bool Forced>
+template <class T, class L, bool Forced, Parity Step>
 void sweep_run(const KernelInput<T>& in, const Run& run, std::uint8_t flags, KernelReport& report) {
   using P = Pack<T>;
   constexpr int width = static_cast<int>(P::size());
-  T* source[19];
-  T* target[19];
+  // The 19 places of a cell: its own slots before an even step, those of its neighbours before an odd one.
+  T* place[19];
   for (int i = 0; i < 19; ++i) {
-    const int o = d3q19::opposite(i);
     const auto& c = d3q19::velocity[i];
-    const auto& b = d3q19::velocity[o];
-    if (in.parity == Parity::even) {
-      source[i] = in.f + i * in.stride + run.first;
-      target[i] = in.f + o * in.stride + run.first;
-    } else {
-      source[i] = in.f + o * in.stride + run.first + b[0] + run.shift[b[1] + 1][b[2] + 1];
-      target[i] = in.f + i * in.stride + run.first + c[0] + run.shift[c[1] + 1][c[2] + 1];
-    }
+    place[i] = in.f + i * in.stride + run.first;
+    if (Step == Parity::odd) place[i] += c[0] + run.shift[c[1] + 1][c[2] + 1];
   }
+  constexpr auto source = [](int i) { return Step == Parity::even ? i : d3q19::opposite(i); };
+  constexpr auto target = [](int i) { return Step == Parity::even ? d3q19::opposite(i) : i; };
   P lane([](auto l) { return static_cast<T>(static_cast<int>(l)); });
   P max_speed2(T(0)), min_drho(T(0)), max_drho(T(0));
   alignas(stdx::memory_alignment_v<P>) T buffer[width];
@@ -137,12 +140,14 @@ void sweep_run(const KernelInput<T>& in, const Run& run, std::uint8_t flags, Ker
     const bool full = lanes == width;
     P g[19];
     if (full) {
-      for (int i = 0; i < 19; ++i) g[i].copy_from(source[i] + n, stdx::element_aligned);
+      for_directions([&](auto i) __attribute__((always_inline)) {
+        g[i].copy_from(place[source(i)] + n, stdx::element_aligned);
+      });
     } else {
-      for (int i = 0; i < 19; ++i) {
-        for (int l = 0; l < width; ++l) buffer[l] = source[i][n + std::min(l, lanes - 1)];
+      for_directions([&](auto i) __attribute__((always_inline)) {
+        for (int l = 0; l < width; ++l) buffer[l] = place[source(i)][n + std::min(l, lanes - 1)];
         g[i].copy_from(buffer, stdx::vector_aligned);
-      }
+      });
     }
     const std::ptrdiff_t s = run.first + n;
     P force[3] = {P(T(0)), P(T(0)), P(T(0))};
@@ -155,12 +160,14 @@ void sweep_run(const KernelInput<T>& in, const Run& run, std::uint8_t flags, Ker
     const P les = in.les ? load_float<T>(in.les + s) : P(T(0));
     const auto m = collide<L, Forced>(g, force, in.constants, les, lanes, report.limited);
     if (full) {
-      for (int i = 0; i < 19; ++i) g[i].copy_to(target[i] + n, stdx::element_aligned);
+      for_directions([&](auto i) __attribute__((always_inline)) {
+        g[i].copy_to(place[target(i)] + n, stdx::element_aligned);
+      });
     } else {
-      for (int i = 0; i < 19; ++i) {
+      for_directions([&](auto i) __attribute__((always_inline)) {
         g[i].copy_to(buffer, stdx::vector_aligned);
-        for (int l = 0; l < lanes; ++l) target[i][n + l] = buffer[l];
-      }
+        for (int l = 0; l < lanes; ++l) place[target(i)][n + l] = buffer[l];
+      });
     }
     const P speed2 = m.ux * m.ux + m.uy * m.uy + m.uz * m.uz;
     const auto inside = lane < P(T(lanes));
@@ -190,10 +197,13 @@ KernelReport sweep(const KernelInput<T>& in) {
   KernelReport report;
   for (int r = in.first_run; r < in.last_run; ++r) {
     const std::uint8_t flags = in.run_flags[r];
-    if (in.forced_everywhere || (flags & run_forced))
-      sweep_run<T, L, true>(in, in.runs[r], flags, report);
+    const bool forced = in.forced_everywhere || (flags & run_forced);
+    if (in.parity == Parity::even)
+      forced ? sweep_run<T, L, true, Parity::even>(in, in.runs[r], flags, report)
+             : sweep_run<T, L, false, Parity::even>(in, in.runs[r], flags, report);
     else
-      sweep_run<T, L, false>(in, in.runs[r], flags, report);
+      forced ? sweep_run<T, L, true, Parity::odd>(in, in.runs[r], flags, report)
+             : sweep_run<T, L, false, Parity::odd>(in, in.runs[r], flags, report);
   }
   return report;
 }
