@@ -25,7 +25,9 @@
 #include <numbers>
 
 #include "dem/first_touch.hpp"
+#include "dem/friction.hpp"
 #include "dem/linear_contact.hpp"
+#include "dem/meeting.hpp"
 
 namespace puffin::dem {
 namespace {
@@ -34,64 +36,6 @@ using Eigen::Vector3d;
 constexpr double never = std::numeric_limits<double>::infinity();
 constexpr double touching = 1e-9;      // of the radius: a gap below this is rounding of the positions
 constexpr double knee_capacity = 8.0;  // K = 8 m* (v/D)^2 takes the energy m* v^2/2 within s = 1/2 (0.068 K D^2)
-
-/// Positions and speeds of a touch.
-struct Meeting {
-  Vector3d normal;                  // towards a
-  double overlap = 0.0;             // > 0 pressed [m]
-  double arm_a = 0.0, arm_b = 0.0;  // from the centres to the place of contact [m]
-};
-
-Meeting meet(const Touch& touch, const Body& a, const Body* b) {
-  Meeting m;
-  if (b != nullptr) {
-    const Vector3d apart = a.x - b->x;
-    const double distance = apart.norm();
-    m.normal = distance > 0.0 ? Vector3d(apart / distance) : touch.memory.normal;
-    m.overlap = touch.reach - distance;
-    m.arm_a = distance * a.radius / touch.reach;  // the arms add up to the distance: angular momentum is kept exactly
-    m.arm_b = distance - m.arm_a;
-  } else {
-    m.normal = touch.plane.normal;
-    m.arm_a = m.normal.dot(a.x - touch.plane.point);
-    m.overlap = a.radius - m.arm_a;
-  }
-  return m;
-}
-
-/// Velocity of a's surface relative to b's at the place of contact, of the half step, or at its predicted end.
-Vector3d surface_velocity(const Meeting& m, const Body& a, const Body* b, bool end) {
-  Vector3d v = end ? Vector3d(a.v + a.kick) : a.v;
-  Vector3d turn = m.arm_a * (end ? Vector3d(a.w + a.twist) : a.w);
-  if (b != nullptr) {
-    v -= end ? Vector3d(b->v + b->kick) : b->v;
-    turn += m.arm_b * (end ? Vector3d(b->w + b->twist) : b->w);
-  }
-  return v - turn.cross(m.normal);
-}
-
-Vector3d centre_velocity(const Body& a, const Body* b, bool end) {
-  Vector3d v = end ? Vector3d(a.v + a.kick) : a.v;
-  if (b != nullptr) v -= end ? Vector3d(b->v + b->kick) : b->v;
-  return v;
-}
-
-Vector3d acceleration(const Body& a, const Body* b) {
-  return b != nullptr ? Vector3d(a.acceleration - b->acceleration) : a.acceleration;
-}
-
-void push(const Vector3d& impulse, Body& a, Body* b) {
-  a.v += impulse * a.inverse_mass;
-  if (b != nullptr) b->v -= impulse * b->inverse_mass;
-}
-
-/// An impulse at the place of contact, with its moment.
-void push_at_contact(const Vector3d& impulse, const Meeting& m, Body& a, Body* b) {
-  push(impulse, a, b);
-  const Vector3d moment = m.normal.cross(impulse);
-  a.w -= moment * (m.arm_a * a.inverse_inertia);
-  if (b != nullptr) b->w -= moment * (m.arm_b * b->inverse_inertia);
-}
 
 double knee(const Rules& rules, const Touch& touch) {
   const SurfaceLaw& law = touch.b >= 0 ? rules.carrier : rules.wall;
@@ -153,50 +97,6 @@ bool separates(const Meeting& m, double h, double since, Touch& touch, Body& a, 
   if (speed <= 0.0 || left <= 0.0) return touch.pair.well == 0.0;
   push(m.normal * ((std::sqrt(left) - speed) * touch.pair.mass), a, b);
   return true;
-}
-
-/// Tangential force on a [N]: spring and dashpot up to the friction limit; moves the spring by `step` [s].
-Vector3d slip_force(const Meeting& m, double step, double limit_force, const Rules& rules, const SurfaceLaw& law,
-                    Touch& touch, const Body& a, const Body* b) {
-  Contact& c = touch.memory;
-  const double k = law.tangential_ratio * c.stiffness;
-  Vector3d half = surface_velocity(m, a, b, false);
-  half -= m.normal * m.normal.dot(half);
-  Vector3d end = surface_velocity(m, a, b, true);
-  end -= m.normal * m.normal.dot(end);
-  c.slip -= m.normal * m.normal.dot(c.slip);
-  c.slip += step * half;
-  Vector3d force = -k * c.slip - touch.eta_slip * end;
-  const double limit = law.friction(law.slip_speed > 0.0 ? end.norm() : 0.0) * limit_force;
-  const double size2 = force.squaredNorm();
-  if (size2 > limit * limit) force *= limit / std::sqrt(size2);
-  const double stretch2 = k * k * c.slip.squaredNorm();
-  if (stretch2 > limit * limit) c.slip *= limit / std::sqrt(stretch2);
-  c.use = limit > 0.0 ? std::min(1.0, force.norm() / limit) : 1.0;
-  c.hold = limit;
-  (void)rules;
-  return force;
-}
-
-/// Rolling moment on a [N m] (EPSD2: elastic up to mu_r R* F, Ai et al. 2011), with the contact's damping ratio.
-Vector3d rolling_moment(const Meeting& m, double step, double limit_force, const SurfaceLaw& law, Touch& touch,
-                        const Body& a, const Body* b) {
-  Contact& c = touch.memory;
-  const double k = law.tangential_ratio * c.stiffness * touch.pair.radius * touch.pair.radius;
-  Vector3d half = a.w, end = a.w + a.twist;
-  double inverse = a.inverse_inertia;
-  if (b != nullptr) half -= b->w, end -= b->w + b->twist, inverse += b->inverse_inertia;
-  half -= m.normal * m.normal.dot(half);
-  end -= m.normal * m.normal.dot(end);
-  c.roll -= m.normal * m.normal.dot(c.roll);
-  c.roll += step * half;
-  Vector3d moment = -k * c.roll - 2.0 * std::max(law.zeta, 0.1) * std::sqrt(k / inverse) * end;
-  const double limit = law.rolling * touch.pair.radius * limit_force;
-  const double size = moment.norm(), stretch = k * c.roll.norm();
-  if (size > limit) moment *= limit / size;
-  if (stretch > limit) c.roll *= limit / stretch;
-  if (limit > 0.0) c.use = std::max(c.use, std::min(1.0, moment.norm() / limit));
-  return moment;
 }
 
 /// The touch is not live: how long may the next sub-step be, so as not to run far into the contact?
@@ -329,7 +229,7 @@ double evaluate(std::size_t index, double h, double time, double horizon, const 
 
   // Friction and rolling, held by what presses the surfaces together.
   const double pressing = std::max(0.0, spring) + (bonded ? touch.pair.pull_off + std::min(0.0, spring) : 0.0);
-  const Vector3d tangential = slip_force(m, share, pressing, rules, law, touch, a, b);
+  const Vector3d tangential = slip_force(m, share, pressing, law, touch, a, b);
   if (bonded) {
     c.use = std::max(c.use, std::max(0.0, -spring) / touch.pair.pull_off);
     c.hold = std::min(c.hold, touch.pair.pull_off);
