@@ -48,7 +48,7 @@ class Checks {
     const auto* generated = std::get_if<Generated>(&c_.geometry.source);
     patches_known_ = generated && !findings_.broken("geometry");
     if (!patches_known_) return;
-    const std::vector<std::string> solids = generate(generated->kind, generated->parameters).solids;
+    const std::vector<std::string> solids = solids_of(generated->kind, generated->parameters);
     patches_.insert(patches_.end(), solids.begin(), solids.end());
   }
 

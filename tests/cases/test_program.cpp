@@ -1,0 +1,104 @@
+// The program as a user and a script see it: output, exit codes, one JSON object.
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+namespace {
+
+struct Outcome {
+  int code = -1;
+  std::string out;
+};
+
+/// Runs the program in a folder of its own; stdout alone is caught.
+Outcome puffin(const std::string& arguments) {
+  const std::string command = std::string(PUFFIN_BINARY_DIR) + "/puffin " + arguments + " 2>/dev/null";
+  Outcome result;
+  FILE* pipe = popen(command.c_str(), "r");
+  std::array<char, 4096> buffer;
+  while (const std::size_t n = std::fread(buffer.data(), 1, buffer.size(), pipe)) result.out.append(buffer.data(), n);
+  result.code = WEXITSTATUS(pclose(pipe));
+  return result;
+}
+
+class Program : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::temp_directory_path() /
+              ("puffin-program-" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+  std::string file(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name) << text;
+    return (folder_ / name).string();
+  }
+  const std::string l_base = std::string(PUFFIN_SOURCE_DIR) + "/cases/l-base/case.toml";
+  std::filesystem::path folder_;
+};
+
+bool one_object(const std::string& text) {
+  return text.starts_with("{") && text.ends_with("}\n") && text.find("\n{") == std::string::npos;
+}
+
+TEST_F(Program, VersionIsPrinted) {
+  EXPECT_EQ(puffin("version").code, 0);
+  EXPECT_TRUE(one_object(puffin("version --json").out));
+}
+
+TEST_F(Program, UsageErrorsEndWith2) {
+  for (const char* arguments : {"", "no-such-command", "check", "geometry l-bend", "version --nonsense",
+                                "geometry l-bend --set step_heigth=1 --out x.stl"})
+    EXPECT_EQ(puffin(arguments).code, 2) << arguments;
+}
+
+TEST_F(Program, ACaseWithThreeMistakesEndsWith3AndNamesThem) {
+  const std::string bad = file("bad.toml",
+                               "name = \"bad\"\n[geometry]\ngenerator = \"box\"\n[air]\nmodel = \"lbn\"\n[numerics]\n"
+                               "dx = \"1 s\"\n[stop]\ntimes = 1\n");
+  const Outcome o = puffin("check " + bad + " --json");
+  EXPECT_EQ(o.code, 3);
+  EXPECT_TRUE(one_object(o.out)) << o.out;
+  for (const char* part : {"\"line\": 5", "\"line\": 7", "\"line\": 9", "did you mean 'lbm'", "did you mean 'time'"})
+    EXPECT_NE(o.out.find(part), std::string::npos) << part << o.out;
+}
+
+TEST_F(Program, AMissingCaseFileEndsWith7) { EXPECT_EQ(puffin("check no/such/case.toml").code, 7); }
+
+TEST_F(Program, ASurfaceWithAHoleEndsWith4) {
+  const std::string stl = file("hole.stl",
+                               "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"
+                               "endloop\nendfacet\nendsolid s\n");
+  EXPECT_EQ(puffin("voxelize " + stl + " --dx 0.1mm").code, 4);
+}
+
+TEST_F(Program, TheQuickLBaseIsFoundRight) {
+  const Outcome o = puffin("check " + l_base + " --preset quick --json");
+  EXPECT_EQ(o.code, 0);
+  EXPECT_TRUE(one_object(o.out));
+  EXPECT_NE(o.out.find("\"ok\": true"), std::string::npos);
+}
+
+TEST_F(Program, AGeneratedSurfaceCanBeVoxelized) {
+  const std::string stl = (folder_ / "box.stl").string();
+  EXPECT_EQ(puffin("geometry box --set x=2mm --set y=1mm --set z=1mm --out " + stl).code, 0);
+  const Outcome o = puffin("voxelize " + stl + " --dx 0.1mm --json --out " + folder_.string());
+  EXPECT_EQ(o.code, 0);
+  EXPECT_TRUE(one_object(o.out));
+  EXPECT_NE(o.out.find("\"cells_fluid\": 2000"), std::string::npos) << o.out;
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "voxels.vti"));
+}
+
+TEST_F(Program, PlanSaysWhatIsSkippedAndWhy) {
+  const Outcome o = puffin("plan " + std::string(PUFFIN_SOURCE_DIR) + "/cases/l-flow/case.toml --json");
+  EXPECT_EQ(o.code, 0);
+  EXPECT_NE(o.out.find("the case has no [carriers]"), std::string::npos) << o.out;
+}
+
+}  // namespace
