@@ -202,8 +202,8 @@ TEST(Jitter, never_makes_neighbours_or_the_floor_overlap) {
   EXPECT_GE(extent(dose).low.z(), spec.floor.z() + 35 * um * (1 - 1e-9));
   DoseSpec cylinder = thesis_dose();
   cylinder.jitter = 5.0;
-  for (const Vec3& p : place(cylinder).positions)
-    ASSERT_LE(std::hypot(p.x() - 3.5 * mm, p.y()) + dose.radius[0], 2.25 * mm);
+  const double radius = 0.5 * parcel_diameter(70 * um, 10);
+  for (const Vec3& p : place(cylinder).positions) ASSERT_LE(std::hypot(p.x() - 3.5 * mm, p.y()) + radius, 2.25 * mm);
 }
 
 TEST(Dose, that_does_not_fit_is_refused_with_the_place) {
