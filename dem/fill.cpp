@@ -84,7 +84,8 @@ void fill(std::size_t index, double time, const Rules& rules, std::span<const Lo
           cluster.bodies[side].imbalance -= side == touch.a ? c.force : Vector3d(-c.force);
     });
   for (std::int32_t p = g.pair_begin[index]; p < g.pair_begin[index + 1]; ++p) {
-    const auto [i, j] = g.pairs[g.pair_order[p]];
+    const auto& pair = g.pairs[g.pair_order[p]];
+    const std::int32_t i = pair[0], j = pair[1];
     bool live = false;
     for_each_contact(state, i, [&](std::int32_t place) {
       const Contact& c = state.contacts[place];
