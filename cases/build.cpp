@@ -10,7 +10,7 @@ std::unique_ptr<Simulation> build(const Case& c) {
   s->surface = load_surface(c);
   if (const auto problems = unknown_patches(c, s->surface.patches); !problems.empty()) throw CaseError(problems);
   s->tree = std::make_shared<const lbm::geometry::TriangleTree>(s->surface.mesh);
-  s->dx = cell_size(c.numerics, s->surface.volume);
+  if (c.air.model == AirModel::lbm || c.numerics.dx) s->dx = cell_size(c.numerics, s->surface.volume);
   build_air(*s);
   if (c.carriers) build_carriers(*s);
   if (c.fines) build_fines(*s);

@@ -99,7 +99,8 @@ Dose dose_of(const Simulation& s) {
     spec.floor_diameter = pitch * std::cbrt(4.0 / std::numbers::pi * static_cast<double>(c.count) / c.parcel) * 1.1;
   }
   return place_dose(
-      spec, [&](const Vec3& x) { return s.tree->inside(x); }, [&](const Vec3& x) { return s.tree->closest(x).distance; });
+      spec, [&](const Vec3& x) { return s.tree->inside(x); },
+      [&](const Vec3& x) { return s.tree->closest(x).distance; });
 }
 
 }  // namespace

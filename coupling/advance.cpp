@@ -51,11 +51,12 @@ bool all_asleep(const dem::Carriers& carriers) {
       const double speed = std::sqrt(m.ux * m.ux + m.uy * m.uy + m.uz * m.uz);
       if (speed < lbm::speed_limit && std::abs(m.density_excess) < 0.5) continue;
       const Vec3 x = air.rows.centre(run.first + n);
-      diverge("the air diverged at step %lld (t = %.6g s): %lld cells out of range, the first at [%.5g, %.5g, %.5g] m: "
-              "speed %.4g (limit %.2g) and density %.4g in lattice units; %.4g m/s. Likely causes: lattice_speed too "
-              "high, dx too coarse for the narrowest gap, or an inlet faster than the reference speed",
-              static_cast<long long>(air.steps), time, static_cast<long long>(count), x[0], x[1], x[2], speed,
-              lbm::speed_limit, 1.0 + m.density_excess, scale.velocity(speed));
+      diverge(
+          "the air diverged at step %lld (t = %.6g s): %lld cells out of range, the first at [%.5g, %.5g, %.5g] m: "
+          "speed %.4g (limit %.2g) and density %.4g in lattice units; %.4g m/s. Likely causes: lattice_speed too "
+          "high, dx too coarse for the narrowest gap, or an inlet faster than the reference speed",
+          static_cast<long long>(air.steps), time, static_cast<long long>(count), x[0], x[1], x[2], speed,
+          lbm::speed_limit, 1.0 + m.density_excess, scale.velocity(speed));
     }
   diverge("the air diverged at step %lld (t = %.6g s): %lld cells were out of range", static_cast<long long>(air.steps),
           time, static_cast<long long>(count));
@@ -154,7 +155,8 @@ void find_loads(const Models& models, double interval, State& s) {
   std::vector<double> beta(count, 0.0), solid;
   if (s.air && models.volume_fraction == VolumeFraction::in_drag) {
     std::vector<double> volume(count);
-    for (std::size_t p = 0; p < count; ++p) volume[p] = c.carriers[p] * 4.1887902047863909846 * std::pow(c.single_radius[p], 3);
+    for (std::size_t p = 0; p < count; ++p)
+      volume[p] = c.carriers[p] * 4.1887902047863909846 * std::pow(c.single_radius[p], 3);
     solid.assign(count, 0.0);
     solid_fraction(s.stencils, volume, s.scale.dx, s.spreader, solid);
   }
@@ -209,14 +211,16 @@ void move_fines(const Models& models, std::int64_t steps, double interval, State
   if (!s.airborne) s.effort.scalar_steps_off += steps;
 }
 
-/// Carries the airborne fines over the steps since the last time. Due when the next exchange could exceed the CFL limit.
+/// Carries the airborne fines over the steps since the last time. Due when the next exchange could exceed the CFL
+/// limit.
 void carry_fines(const Models& models, bool now, State& s) {
   if (s.scalars.scalars() == 0 || !s.air) return;
   if (!s.airborne) {
     s.steps_since_scalars = 0;
     return;
   }
-  if (s.steps_since_scalars == 0 || (!now && s.steps_since_scalars + models.steps_per_exchange <= s.steps_per_scalar_update))
+  if (s.steps_since_scalars == 0 ||
+      (!now && s.steps_since_scalars + models.steps_per_exchange <= s.steps_per_scalar_update))
     return;
   const Stopwatch watch(s.effort.scalars);
   lbm::ScalarOptions options = models.scalars;
@@ -224,8 +228,7 @@ void carry_fines(const Models& models, bool now, State& s) {
     options.scalar[k].diffusivity = s.scale.viscosity_lu(models.diffusion[k]);
   lbm::find_mass_fluxes(*s.air, s.routes, s.fluxes);
   lbm::advance_scalars(s.air->rows, s.fluxes, static_cast<double>(s.steps_since_scalars), options, s.scalars, s.budget);
-  s.steps_per_scalar_update =
-      std::clamp(std::floor(lbm::max_steps(s.air->rows, s.fluxes, options.cfl)), 1.0, 64.0);
+  s.steps_per_scalar_update = std::clamp(std::floor(lbm::max_steps(s.air->rows, s.fluxes, options.cfl)), 1.0, 64.0);
   s.effort.scalar_steps += s.steps_since_scalars;
   s.steps_since_scalars = 0;
 }
@@ -243,7 +246,8 @@ void advance(const Models& models, double until, State& s) {
   }
   s.scale.dt = wanted;
   const bool resting = all_asleep(s.carriers.carriers);
-  const int most = s.carriers.carriers.size() == 0 || resting ? models.steps_per_exchange_asleep : models.steps_per_exchange;
+  const int most =
+      s.carriers.carriers.size() == 0 || resting ? models.steps_per_exchange_asleep : models.steps_per_exchange;
   const int steps = std::clamp(static_cast<int>(std::ceil((until - s.time) / s.scale.dt - 1e-9)), 1, most);
   const double interval = steps * s.scale.dt;
   if (resting && s.carriers.carriers.size() > 0) s.effort.exchanges_saved += steps / models.steps_per_exchange - 1;

@@ -36,17 +36,17 @@ struct PatchDrive {
   std::function<double(double)> speed;     // inlet: section mean into the domain; moving wall: its speed [m/s]
   std::function<double(double)> pressure;  // outlet: gauge pressure [Pa]
   bool is_inlet = false, is_outlet = false;
-  double area = 0.0;                       // [m^2]
+  double area = 0.0;  // [m^2]
 };
 
 enum class VolumeFraction { none, in_drag };
 
 /// Immutable during a run.
 struct Models {
-  Air air;                          // density, viscosity (SI)
-  std::vector<PatchDrive> patches;  // one for each boundary of lbm::Air
-  std::function<Vec3(double)> body_force;      // [N/m^3]; empty: none
-  std::function<Vec3(const Vec3&)> frozen_air; // velocity [m/s] where there is no lattice; empty: no air at all
+  Air air;                                      // density, viscosity (SI)
+  std::vector<PatchDrive> patches;              // one for each boundary of lbm::Air
+  std::function<Vec3(double)> body_force;       // [N/m^3]; empty: none
+  std::function<Vec3(const Vec3&)> frozen_air;  // velocity [m/s] where there is no lattice; empty: no air at all
   TimeStepRule time_step;
   DragLaw drag = SchillerNaumann{};
   VolumeFraction volume_fraction = VolumeFraction::in_drag;
@@ -76,7 +76,7 @@ struct Effort {
   std::int64_t exchanges = 0, exchanges_saved = 0;      // saved: while every carrier slept
   std::int64_t scalar_steps = 0, scalar_steps_off = 0;  // off: air steps before anything was airborne
   std::int64_t rescalings = 0;
-  double steps_at_reference_dt = 0.0;                   // air steps that a fixed time step would have taken
+  double steps_at_reference_dt = 0.0;  // air steps that a fixed time step would have taken
 };
 
 /// Largest departures from what the method is made for, since the start.
@@ -101,7 +101,7 @@ struct State {
   std::vector<Departure> departures;
   dem::Events events;  // of the last exchange; the caller may read and must not keep references
 
-  Stencils stencils, spread_on;      // present, and those on which forces lie
+  Stencils stencils, spread_on;  // present, and those on which forces lie
   AirSamples samples;
   Spreader spreader;
   std::vector<Vec3> impulse_on_air;  // [N s] by place in `stencils`, to be given to the air in the next exchange
@@ -116,7 +116,7 @@ struct State {
   std::int64_t steps_since_scalars = 0;
   double seconds_since_scalars = 0.0;
   double steps_per_scalar_update = 1.0;
-  bool airborne = false;             // fines have been released
+  bool airborne = false;  // fines have been released
 
   Effort effort;
   Extremes extremes;

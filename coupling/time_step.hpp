@@ -13,9 +13,9 @@ using SpeedOfTime = std::function<double(double)>;
 /// surfaces), and is at most `longest` times the one at the reference speed.
 struct TimeStepRule {
   bool follow = false;
-  double reference_dt = 0.0;    // [s] at the reference speed
-  double reference_speed = 0.0; // [m/s]
-  SpeedOfTime speed;            // used if follow
+  double reference_dt = 0.0;     // [s] at the reference speed
+  double reference_speed = 0.0;  // [m/s]
+  SpeedOfTime speed;             // used if follow
   double window = 0.05;
   double longest = 4.0;
 

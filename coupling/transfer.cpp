@@ -69,7 +69,7 @@ MomentumBooking Spreader::spread(const Stencils& stencils, std::span<const Eigen
     books.exchanged += impulse[stencil.carrier].norm();
   }
   for_each_by_tile(stencils, [&](int, const Stencil& stencil) {
-    const Eigen::Vector3d j = impulse[stencil.carrier];
+    const Eigen::Vector3d& j = impulse[stencil.carrier];
     for (const StencilEntry& e : stencils.entries(stencil)) {
       __builtin_prefetch(&momentum_[Stencils::slot_ahead(e)], 1);
       momentum_[e.slot] += e.weight * j;

@@ -11,8 +11,8 @@ using geometry::Vec3;
 
 namespace {
 
-/// 18 sqrt2 L^2 with L = min(C_s, d/14), d the wall distance in cells, and C_s raised up to threefold in the sponge.
-/// d/14: the cell beside a wall (y+ of 20 to 60 at device scale) then carries the stress of the log law,
+/// 18 sqrt2 L^2 with L = min(C_s, d/14), d the wall distance in cells (at least 1/2), and C_s raised up to threefold in
+/// the sponge. d/14: the cell beside a wall (y+ of 20 to 60 at device scale) then carries the stress of the log law,
 /// tau_w = rho (L u/d)^2 = rho (u/u+)^2 with u+ = 14. With kappa d instead (0.2 at d = 1/2, so C_s) the friction of a
 /// channel 6 cells high came out five times too large: docs/decisions/0002-mixing-length-at-walls.md.
 std::vector<float> eddy_lengths(const Rows& rows, const LinkGeometry& surface, const AirOptions& options) {
@@ -46,7 +46,8 @@ std::vector<float> eddy_lengths(const Rows& rows, const LinkGeometry& surface, c
           const double d = outlet_tree->closest(x, options.sponge_length).distance;
           if (d < options.sponge_length) length *= 3.0 - 2.0 * d / options.sponge_length;
         }
-        if (wall_tree) length = std::min(length, slope * wall_tree->closest(x, 3.0 * reach).distance / dx);
+        if (wall_tree)
+          length = std::min(length, slope * std::max(0.5, wall_tree->closest(x, 3.0 * reach).distance / dx));
         les[slot] = static_cast<float>(18.0 * std::sqrt(2.0) * length * length);
       }
   });
@@ -124,9 +125,8 @@ std::int64_t apply_outlets(const Air& air, const Drive& drive, Parity last, Popu
       const auto& c = d3q19::velocity[i];
       const double cu = u.dot(Vec3(c[0], c[1], c[2])), rho = 1.0 + drive.density_excess[list[k].patch];
       const double dynamic = rho * (4.5 * cu * cu - 1.5 * u.squaredNorm());
-      returning(run, list[k], last, p) =
-          static_cast<T>(-p.departed(run, slot, i, last) +
-                         2.0 * d3q19::weight[i] * (drive.density_excess[list[k].patch] + dynamic));
+      returning(run, list[k], last, p) = static_cast<T>(
+          -p.departed(run, slot, i, last) + 2.0 * d3q19::weight[i] * (drive.density_excess[list[k].patch] + dynamic));
     }
   }
   return cut;
@@ -318,10 +318,10 @@ std::array<double, 3> force_on_patch(const Air& air, int boundary) {
           for (int i = 1; i < d3q19::q; ++i) {
             if (!(wall.directions >> i & 1U)) continue;
             for (int n = 0; n < wall.count; ++n) {
-              if (air.links.wall_patch[wall.coefficient + static_cast<std::size_t>(k) * wall.count + n] != boundary) continue;
+              if (air.links.wall_patch[wall.coefficient + static_cast<std::size_t>(k) * wall.count + n] != boundary)
+                continue;
               const std::ptrdiff_t slot = wall.first + n;
-              const double exchanged =
-                  p.departed(run, slot, i, last) + p.arrived(run, slot, d3q19::opposite(i));
+              const double exchanged = p.departed(run, slot, i, last) + p.arrived(run, slot, d3q19::opposite(i));
               for (int d = 0; d < 3; ++d) force[d] += exchanged * d3q19::velocity[i][d];
             }
             ++k;

@@ -43,12 +43,12 @@ struct Air {
   std::variant<Populations<float>, Populations<double>> populations;
   Moments moments;
   BodyForce force;
-  std::vector<std::uint8_t> run_flags;     // per run: run_forced, run_moments
-  std::vector<std::int32_t> run_of_slot;   // -1: not active
-  std::vector<float> les;                  // 18 sqrt2 L^2 per slot; empty: none
+  std::vector<std::uint8_t> run_flags;    // per run: run_forced, run_moments
+  std::vector<std::int32_t> run_of_slot;  // -1: not active
+  std::vector<float> les;                 // 18 sqrt2 L^2 per slot; empty: none
   std::int64_t steps = 0;
-  std::int64_t limited = 0;                // cells x steps in which the positivity limiter acted
-  std::int64_t backflow = 0;               // outlet cells x steps with the back-flow cut
+  std::int64_t limited = 0;   // cells x steps in which the positivity limiter acted
+  std::int64_t backflow = 0;  // outlet cells x steps with the back-flow cut
 
   Parity parity() const;  // kind of the next collision
 };

@@ -23,9 +23,9 @@ template <class Real>
 
 /// What a law needs beside the populations; the same for every cell of a step.
 struct CollisionConstants {
-  double tau0 = 1.0;            // molecular relaxation time: nu = (tau0 - 1/2)/3
-  double rescale = 1.0;         // ratio r = dt_new/dt_old, used in the one step in which the time step changes
-  double tau0_rescaled = 1.0;   // relaxation time after the change
+  double tau0 = 1.0;           // molecular relaxation time: nu = (tau0 - 1/2)/3
+  double rescale = 1.0;        // ratio r = dt_new/dt_old, used in the one step in which the time step changes
+  double tau0_rescaled = 1.0;  // relaxation time after the change
 };
 
 /// Density and velocity that a collision found; what interpolation, output and the health check want to know.
@@ -108,8 +108,8 @@ struct Rr3 {
   static constexpr bool regularised = true;
 
   template <bool Forced, class Real>
-  [[gnu::always_inline]] static inline void assemble(Real drho, Real rho, const Real (&u)[3], const Real (&p)[6], const Real (&force)[3],
-                              Real (&g)[19]) {
+  [[gnu::always_inline]] static inline void assemble(Real drho, Real rho, const Real (&u)[3], const Real (&p)[6],
+                                                     const Real (&force)[3], Real (&g)[19]) {
     // p = (1-omega) Pi
     const Real jx = rho * u[0], jy = rho * u[1], jz = rho * u[2];
     Real sxx = jx * u[0] + p[0], syy = jy * u[1] + p[1], szz = jz * u[2] + p[2];
@@ -144,7 +144,7 @@ struct Rr3 {
     const Real base = drho - constant<Real>(1.5) * (sxx + syy + szz);
     g[0] = constant<Real>(1.0 / 3.0) * base;
     const Real a18 = constant<Real>(1.0 / 18.0), sixth = constant<Real>(1.0 / 6.0), quarter = constant<Real>(0.25);
-    const auto axis = [&](Real s, Real k, Real t, Real& plus, Real& minus) __attribute__((always_inline)) {
+    const auto axis = [&](Real s, Real k, Real t, Real & plus, Real & minus) __attribute__((always_inline)) {
       const Real even = a18 * base + quarter * s;  // 4.5/18
       const Real odd = sixth * k - half * t;
       plus = even + odd;
@@ -154,8 +154,8 @@ struct Rr3 {
     axis(syy, ky, txxy + tzzy, g[3], g[4]);
     axis(szz, kz, txxz + tyyz, g[5], g[6]);
     const Real a36 = constant<Real>(1.0 / 36.0), twelfth = constant<Real>(1.0 / 12.0), eighth = constant<Real>(0.125);
-    const auto diagonal = [&](Real saa, Real sbb, Real sab, Real ka, Real kb, Real taab, Real tbba, Real& pp, Real& mm,
-                              Real& pm, Real& mp) __attribute__((always_inline)) {
+    const auto diagonal = [&](Real saa, Real sbb, Real sab, Real ka, Real kb, Real taab, Real tbba, Real & pp,
+                              Real & mm, Real & pm, Real & mp) __attribute__((always_inline)) {
       const Real even = a36 * base + eighth * (saa + sbb);
       const Real cross = quarter * sab;
       const Real odd_a = twelfth * ka + quarter * tbba, odd_b = twelfth * kb + quarter * taab;

@@ -35,30 +35,31 @@ inline constexpr std::uint8_t run_forced = 1, run_moments = 2;
 
 /// What the loop saw; merged over chunks in a fixed order.
 struct KernelReport {
-  double max_speed2 = 0.0;          // largest u^2 [lattice units]
+  double max_speed2 = 0.0;  // largest u^2 [lattice units]
   double min_density_excess = 0.0;
   double max_density_excess = 0.0;
-  std::int64_t limited = 0;         // cells in which the positivity limiter acted
-  std::int64_t bad = 0;             // cells with non-finite values, |u| or rho outside the limits
+  std::int64_t limited = 0;  // cells in which the positivity limiter acted
+  std::int64_t bad = 0;      // cells with non-finite values, |u| or rho outside the limits
 };
 
 template <class T>
 struct KernelInput {
-  T* f = nullptr;                     // populations, 19 arrays of `stride` values
+  T* f = nullptr;  // populations, 19 arrays of `stride` values
   std::size_t stride = 0;
   const Run* runs = nullptr;
   const std::uint8_t* run_flags = nullptr;  // per run
   int first_run = 0, last_run = 0;
   Parity parity = Parity::even;
   CollisionConstants constants;
-  const float* les = nullptr;         // 18 sqrt2 L^2 per slot, or null: no eddy viscosity
+  const float* les = nullptr;  // 18 sqrt2 L^2 per slot, or null: no eddy viscosity
   double uniform_force[3] = {0, 0, 0};
-  bool forced_everywhere = false;     // a uniform force acts
-  const float* force[3] = {nullptr, nullptr, nullptr};  // per slot, read in runs flagged run_forced
+  bool forced_everywhere = false;                            // a uniform force acts
+  const float* force[3] = {nullptr, nullptr, nullptr};       // per slot, read in runs flagged run_forced
   float* moments[4] = {nullptr, nullptr, nullptr, nullptr};  // rho-1, ux, uy, uz; written in runs flagged run_moments
 };
 
-/// |u| above this, or |rho-1| above 0.5, counts as bad: the flow has left the range in which the lattice means anything.
+/// |u| above this, or |rho-1| above 0.5, counts as bad: the flow has left the range in which the lattice means
+/// anything.
 inline constexpr double speed_limit = 0.4;
 
 template <class T>
@@ -71,12 +72,12 @@ struct WallInput {
   std::size_t stride = 0;
   const Run* runs = nullptr;
   const WallRun* walls = nullptr;
-  std::size_t first = 0, last = 0;      // [first, last) of walls
-  Parity parity = Parity::even;         // of the collision that has just been done
-  const float* back = nullptr;          // coefficients
+  std::size_t first = 0, last = 0;  // [first, last) of walls
+  Parity parity = Parity::even;     // of the collision that has just been done
+  const float* back = nullptr;      // coefficients
   const float* own = nullptr;
-  const float* moving = nullptr;        // or null
-  double wall_speed = 0.0;              // multiplies `moving` [lattice units]
+  const float* moving = nullptr;  // or null
+  double wall_speed = 0.0;        // multiplies `moving` [lattice units]
 };
 template <class T>
 using WallKernel = void (*)(const WallInput<T>&);

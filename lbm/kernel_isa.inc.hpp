@@ -22,7 +22,8 @@ template <class F>
 [[gnu::always_inline]] inline void for_directions(F&& body) {
   [&]<int... I>(std::integer_sequence<int, I...>) __attribute__((always_inline)) {
     (body(std::integral_constant<int, I>()), ...);
-  }(std::make_integer_sequence<int, 19>());
+  }
+  (std::make_integer_sequence<int, 19>());
 }
 
 template <class T>
@@ -33,7 +34,9 @@ inline Pack<T> load_float(const float* p) {
 }
 
 template <class P>
-[[gnu::always_inline]] inline P minimum(P a, P b) { return stdx::min(a, b); }
+[[gnu::always_inline]] inline P minimum(P a, P b) {
+  return stdx::min(a, b);
+}
 
 /// The rare path of the positivity limiter: scales the stress p = (1-omega) Pi down, cell by cell, until no population
 /// falls below w_i/10. `g` holds the populations with the full stress.
@@ -59,8 +62,8 @@ template <bool Forced, class P>
 
 /// One pack of cells: collides g in place. Returns the moments; counts limiter events among the first `lanes` lanes.
 template <class L, bool Forced, class P>
-[[gnu::always_inline]] inline CellMoments<P> collide(P (&g)[19], const P (&force_in)[3], const CollisionConstants& c, const P& les, int lanes,
-                              std::int64_t& limited) {
+[[gnu::always_inline]] inline CellMoments<P> collide(P (&g)[19], const P (&force_in)[3], const CollisionConstants& c,
+                                                     const P& les, int lanes, std::int64_t& limited) {
   using T = typename P::value_type;
   // In the step that changes dt, `force_in` is in the new units and the populations in the old: F = F'/r^2.
   const P old_force = P(T(Forced ? 1.0 / (c.rescale * c.rescale) : 1.0));
@@ -88,7 +91,8 @@ template <class L, bool Forced, class P>
     P p[6];
     for (int n = 0; n < 6; ++n) p[n] = keep * h.pi[n];
     Rr3::assemble<Forced>(h.drho, h.rho, h.u, p, force_in, g);
-    // Positivity: f_i >= w_i/10. The smallest g_i/w_i over axes and diagonals decides; the stress is scaled down if not.
+    // Positivity: f_i >= w_i/10. The smallest g_i/w_i over axes and diagonals decides; the stress is scaled down if
+    // not.
     P low_axis = minimum(minimum(minimum(g[1], g[2]), minimum(g[3], g[4])), minimum(g[5], g[6]));
     P low_diagonal = minimum(minimum(minimum(minimum(g[7], g[8]), minimum(g[9], g[10])),
                                      minimum(minimum(g[11], g[12]), minimum(g[13], g[14]))),
@@ -104,8 +108,8 @@ template <class L, bool Forced, class P>
     const P omega = P(T(1)) / tau;
     const P u2 = h.u[0] * h.u[0] + h.u[1] * h.u[1] + h.u[2] * h.u[2];
     for_directions([&](auto i) __attribute__((always_inline)) {
-      const P w(T(d3q19::weight[i]));
-      const P cx(T(d3q19::velocity[i][0])), cy(T(d3q19::velocity[i][1])), cz(T(d3q19::velocity[i][2]));
+      const P w{T(d3q19::weight[i])};
+      const P cx{T(d3q19::velocity[i][0])}, cy{T(d3q19::velocity[i][1])}, cz{T(d3q19::velocity[i][2])};
       const P cu = cx * h.u[0] + cy * h.u[1] + cz * h.u[2];
       const P eq = w * (h.drho + h.rho * (P(T(3)) * cu + P(T(4.5)) * cu * cu - P(T(1.5)) * u2));
       g[i] = g[i] + omega * (eq - g[i]);
@@ -160,9 +164,8 @@ void sweep_run(const KernelInput<T>& in, const Run& run, std::uint8_t flags, Ker
     const P les = in.les ? load_float<T>(in.les + s) : P(T(0));
     const auto m = collide<L, Forced>(g, force, in.constants, les, lanes, report.limited);
     if (full) {
-      for_directions([&](auto i) __attribute__((always_inline)) {
-        g[i].copy_to(place[target(i)] + n, stdx::element_aligned);
-      });
+      for_directions([&](auto i)
+                         __attribute__((always_inline)) { g[i].copy_to(place[target(i)] + n, stdx::element_aligned); });
     } else {
       for_directions([&](auto i) __attribute__((always_inline)) {
         g[i].copy_to(buffer, stdx::vector_aligned);
@@ -172,8 +175,8 @@ void sweep_run(const KernelInput<T>& in, const Run& run, std::uint8_t flags, Ker
     const P speed2 = m.ux * m.ux + m.uy * m.uy + m.uz * m.uz;
     const auto inside = lane < P(T(lanes));
     // Written so that a NaN counts as bad.
-    const auto good = (speed2 < P(T(speed_limit * speed_limit))) && (m.density_excess < P(T(0.5))) &&
-                      (m.density_excess > P(T(-0.5)));
+    const auto good =
+        (speed2 < P(T(speed_limit * speed_limit))) && (m.density_excess < P(T(0.5))) && (m.density_excess > P(T(-0.5)));
     if (!stdx::all_of(good || !inside)) [[unlikely]]
       for (int l = 0; l < lanes; ++l) report.bad += good[l] ? 0 : 1;
     max_speed2 = stdx::max(max_speed2, speed2);  // lanes beyond the run repeat its last cell
@@ -211,8 +214,8 @@ KernelReport sweep(const KernelInput<T>& in) {
 /// Reflection at the walls for `lanes` cells of one wall run, the first at offset n (links.hpp has the equations).
 /// Width of V: a pack, or one cell.
 template <class T, class V, class Load, class LoadFloat, class Store>
-inline void reflect(const WallInput<T>& in, const WallRun& wall, int n, const Load& load, const LoadFloat& load_float_at,
-                    const Store& store) {
+inline void reflect(const WallInput<T>& in, const WallRun& wall, int n, const Load& load,
+                    const LoadFloat& load_float_at, const Store& store) {
   const Run& run = in.runs[wall.run];
   const auto offset = [&](int i) {
     const auto& c = d3q19::velocity[i];
@@ -225,7 +228,7 @@ inline void reflect(const WallInput<T>& in, const WallRun& wall, int n, const Lo
   int links = 0;
   for (std::uint32_t bits = wall.directions; bits != 0; bits &= bits - 1, ++links) {
     const int i = __builtin_ctz(bits), o = d3q19::opposite(i);
-    T* here = in.f + o * in.stride + wall.first + n;           // own slot of the returning direction
+    T* here = in.f + o * in.stride + wall.first + n;                // own slot of the returning direction
     T* beyond = in.f + i * in.stride + wall.first + n + offset(i);  // slot behind the wall
     T* behind = in.f + o * in.stride + wall.first + n + offset(o);
     T* own = in.f + i * in.stride + wall.first + n;
@@ -254,7 +257,8 @@ void walls(const WallInput<T>& in) {
     int n = 0;
     for (; n + width <= wall.count; n += width)
       reflect<T, P>(
-          in, wall, n, [](const T* p) { return P(p, stdx::element_aligned); }, [](const float* p) { return load_float<T>(p); },
+          in, wall, n, [](const T* p) { return P(p, stdx::element_aligned); },
+          [](const float* p) { return load_float<T>(p); },
           [](T* p, const P& v) { v.copy_to(p, stdx::element_aligned); });
     for (; n < wall.count; ++n)
       reflect<T, T>(
@@ -267,8 +271,7 @@ void walls(const WallInput<T>& in) {
 constexpr int direction_of(int d, int sd, int b, int sb) {
   for (int i = 0; i < 19; ++i) {
     bool same = true;
-    for (int a = 0; a < 3; ++a)
-      same = same && d3q19::velocity[i][a] == (a == d ? sd : (a == b ? sb : 0));
+    for (int a = 0; a < 3; ++a) same = same && d3q19::velocity[i][a] == (a == d ? sd : (a == b ? sb : 0));
     if (same) return i;
   }
   return 0;
@@ -334,11 +337,15 @@ void fluxes(const FluxInput<T>& in) {
 
 }  // namespace
 
+// One unit per instruction set includes this file, each in its own namespace.
+// NOLINTBEGIN(misc-definitions-in-headers)
 FluxKernel<float> fluxes_float() { return &fluxes<float>; }
 FluxKernel<double> fluxes_double() { return &fluxes<double>; }
 WallKernel<float> walls_float() { return &walls<float>; }
 WallKernel<double> walls_double() { return &walls<double>; }
 Kernel<float> kernel_float(Law law) { return law == Law::rr3 ? &sweep<float, Rr3> : &sweep<float, Bgk>; }
 Kernel<double> kernel_double(Law law) { return law == Law::rr3 ? &sweep<double, Rr3> : &sweep<double, Bgk>; }
+
+// NOLINTEND(misc-definitions-in-headers)
 
 }  // namespace puffin::lbm::PUFFIN_ISA

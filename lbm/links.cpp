@@ -20,9 +20,9 @@ namespace {
 /// What cuts one link.
 struct Cut {
   std::int8_t direction = 0;
-  bool thin = false;       // the neighbour is active as well
+  bool thin = false;  // the neighbour is active as well
   std::int16_t patch = 0;
-  float q = 0.5F;          // distance to the surface over the length of the link
+  float q = 0.5F;  // distance to the surface over the length of the link
 };
 
 /// The surface without its periodic faces, and the shifts under which it repeats.
@@ -149,11 +149,9 @@ Links build_links(const Rows& rows, const LinkGeometry& surface, WallScheme sche
       if (cuts.empty()) continue;
       const std::ptrdiff_t slot = run.first + n;
       const Vec3 centre = rows.centre(slot);
-      std::uint32_t walls = 0, thin = 0, any = 0;
+      std::uint32_t walls = 0;
       for (const Cut& cut : cuts) {
-        any |= 1U << cut.direction;
         if (cut.thin) {
-          thin |= 1U << cut.direction;
           const std::ptrdiff_t other = slot + neighbour_offset(run, cut.direction);
           const auto p = static_cast<std::int16_t>(cut.patch < 0 ? wall_patch : cut.patch);
           if (slot < other) links.thin.push_back({slot, static_cast<std::int32_t>(r), cut.direction, p});
@@ -216,7 +214,8 @@ Links build_links(const Rows& rows, const LinkGeometry& surface, WallScheme sche
         const int patch = cut->patch < 0 ? wall_patch : cut->patch;
         links.wall_patch[at] = static_cast<std::int16_t>(patch);
         if (any_moving && surface.boundaries[patch].profile) {
-          // Reflected at a moving surface: -6 w c.u_wall, over the weight of f_out (2 for q < 1/2 halves, Bouzidi eq. 9).
+          // Reflected at a moving surface: -6 w c.u_wall, over the weight of f_out (2 for q < 1/2 halves, Bouzidi eq.
+          // 9).
           const auto& c = d3q19::velocity[i];
           const Vec3 direction(c[0], c[1], c[2]);
           const Vec3 u = surface.boundaries[patch].profile(rows.centre(slot) + q * dx * direction);
@@ -262,7 +261,8 @@ Links build_links(const Rows& rows, const LinkGeometry& surface, WallScheme sche
       }
     links.opening_cells_area[b] = area;
     if (area == 0.0)
-      throw std::runtime_error("the opening '" + boundary.patch + "' touches no cell of the fluid; dx is too large for it");
+      throw std::runtime_error("the opening '" + boundary.patch +
+                               "' touches no cell of the fluid; dx is too large for it");
     if (boundary.kind != BoundaryKind::velocity_inlet) continue;
     if (!(gain > 0.0) || !(speed > 0.0))
       throw std::runtime_error("the profile of the inlet '" + boundary.patch + "' does not point into the fluid");

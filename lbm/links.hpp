@@ -1,12 +1,13 @@
 #pragma once
-// Links: where the line from a cell centre to a neighbour is cut by the surface. Built once, flat lists, no search later.
+// Links: where the line from a cell centre to a neighbour is cut by the surface. Built once, flat lists, no search
+// later.
 //
 // Walls are imposed through the cut links (sharp immersed boundary): the population that leaves the cell along the link
 // comes back after reflection at the exact wall distance q (in units of the link), by linear interpolation:
 //   q <  1/2:  f_in = 2q f_out + (1-2q) f_out(x - c)        q >= 1/2:  f_in = f_out/(2q) + (1 - 1/(2q)) f_own,
 // f_own the post-collision population of the cell in the returning direction.
-// Source: Bouzidi, Firdaouss & Lallemand, Phys. Fluids 13, 3452 (2001). Each cell's mass imbalance over its cut links is
-// returned over them in proportion to the lattice weights, so that the air's mass is conserved to round-off.
+// Source: Bouzidi, Firdaouss & Lallemand, Phys. Fluids 13, 3452 (2001). Each cell's mass imbalance over its cut links
+// is returned over them in proportion to the lattice weights, so that the air's mass is conserved to round-off.
 // Half-way bounce-back is the same with q = 1/2 everywhere.
 
 #include <cstdint>
@@ -42,11 +43,11 @@ struct OpeningLink {
 };
 
 struct Links {
-  std::vector<WallRun> walls;          // in the order of the rows
-  std::vector<std::size_t> wall_chunks;  // boundaries of the parts given to threads
-  std::vector<float> back, own;        // weights of f_out(x-c) and f_own; that of f_out is 1 - back - own
-  std::vector<float> moving;           // population gained for a unit wall speed; empty when no wall moves
-  std::vector<std::int16_t> wall_patch;  // per coefficient
+  std::vector<WallRun> walls;                // in the order of the rows
+  std::vector<std::size_t> wall_chunks;      // boundaries of the parts given to threads
+  std::vector<float> back, own;              // weights of f_out(x-c) and f_own; that of f_out is 1 - back - own
+  std::vector<float> moving;                 // population gained for a unit wall speed; empty when no wall moves
+  std::vector<std::int16_t> wall_patch;      // per coefficient
   std::vector<OpeningLink> inlets, outlets;  // sorted by slot
   /// Links between two active cells with a wall between them (thinner than a cell); never in `walls`.
   struct ThinLink {

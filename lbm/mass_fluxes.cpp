@@ -85,8 +85,8 @@ FluxRoutes find_routes(const Air& air, FaceFluxes& fluxes) {
       const int axis = (best - 1) / 2, sign = best % 2 ? 1 : -1;
       const std::ptrdiff_t face = sign > 0 ? link.slot : link.slot + neighbour_offset(run, best);
       fluxes.open[axis][face] = 2;
-      routes.openings.push_back({link.slot, link.run, link.direction, static_cast<std::int8_t>(axis),
-                                 static_cast<std::int8_t>(sign), face});
+      routes.openings.push_back(
+          {link.slot, link.run, link.direction, static_cast<std::int8_t>(axis), static_cast<std::int8_t>(sign), face});
     }
   for (const auto& [ghost, active] : rows.periodic_images()) {
     routes.images.push_back({ghost, active});

@@ -18,17 +18,17 @@ namespace puffin::lbm {
 struct FluxRoutes {
   std::array<std::vector<std::uint16_t>, 3> shares;  // per face: halves (0, 1, 2) of eight diagonal links, 2 bits each
   struct Opening {
-    std::ptrdiff_t slot;       // active cell
+    std::ptrdiff_t slot;  // active cell
     std::int32_t run;
-    std::int16_t direction;    // link that is cut by the opening
-    std::int8_t axis, sign;    // face that takes its flux: +-axis of the cell
-    std::ptrdiff_t face;       // slot that holds this face
+    std::int16_t direction;  // link that is cut by the opening
+    std::int8_t axis, sign;  // face that takes its flux: +-axis of the cell
+    std::ptrdiff_t face;     // slot that holds this face
   };
   std::vector<Opening> openings;
   struct Copy {
     std::ptrdiff_t ghost, active;
   };
-  std::vector<Copy> images;    // periodic ghosts repeat the faces of the cells they mirror
+  std::vector<Copy> images;  // periodic ghosts repeat the faces of the cells they mirror
 };
 
 /// Finds the routes and marks which faces are open; sizes all arrays of `fluxes`.

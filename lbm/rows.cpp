@@ -110,7 +110,8 @@ std::ptrdiff_t Rows::slot(int i, int j, int k) const {
   if (i < -1 || j < -1 || k < -1 || i > box_[0] || j > box_[1] || k > box_[2]) return -1;
   const std::size_t row = (j + 1) + static_cast<std::size_t>(box_[1] + 2) * (k + 1);
   for (int s = row_begin_[row]; s < row_begin_[row + 1]; ++s)
-    if (i >= stretches_[s].x && i < stretches_[s].x + stretches_[s].count) return stretches_[s].first + (i - stretches_[s].x);
+    if (i >= stretches_[s].x && i < stretches_[s].x + stretches_[s].count)
+      return stretches_[s].first + (i - stretches_[s].x);
   return -1;
 }
 

@@ -2,8 +2,8 @@
 // Where a cell lives in memory. Only active cells and one layer of ghosts around them are stored, as rows along x.
 //
 // A row is a maximal stretch of consecutive stored slots with the same (y,z). Inside a row the slots of x, x+1, ... are
-// neighbours in memory. Every cell within one step (D3Q19) of an active cell is stored: so for a run of active cells the
-// neighbours in direction (cx,cy,cz) are again consecutive in memory, at the constant offset
+// neighbours in memory. Every cell within one step (D3Q19) of an active cell is stored: so for a run of active cells
+// the neighbours in direction (cx,cy,cz) are again consecutive in memory, at the constant offset
 //     slot(x + cx, y + cy, z + cz) = slot(x, y, z) + cx + run.shift[cy][cz].
 // A kernel needs one offset a run and direction, no index a cell, and no test for walls: what streams out of the fluid
 // lands in a ghost slot, where the links (walls, inlet, outlet, periodic faces) pick it up.
@@ -28,7 +28,7 @@ class Rows {
   /// Throws std::invalid_argument if there is no active cell.
   explicit Rows(const geometry::Voxels& voxels, std::array<bool, 3> periodic = {false, false, false});
 
-  std::size_t slots() const { return slots_; }             // array length for one value a slot (active, ghost, padding)
+  std::size_t slots() const { return slots_; }  // array length for one value a slot (active, ghost, padding)
   std::size_t active_cells() const { return active_; }
   const std::vector<Run>& runs() const { return runs_; }
   const std::vector<Chunk>& chunks() const { return chunks_; }
@@ -64,8 +64,8 @@ class Rows {
   std::vector<Kind> kind_;
   std::vector<std::array<int, 3>> cell_;
   std::vector<std::array<std::ptrdiff_t, 2>> images_;
-  std::vector<Stretch> stretches_;            // stored stretches, row by row
-  std::vector<std::int32_t> row_begin_;       // per (y,z) incl. the ghost border: first stretch; size rows+1
+  std::vector<Stretch> stretches_;       // stored stretches, row by row
+  std::vector<std::int32_t> row_begin_;  // per (y,z) incl. the ghost border: first stretch; size rows+1
   geometry::Vec3 origin_ = geometry::Vec3::Zero();
   double dx_ = 0.0;
   std::array<int, 3> box_{0, 0, 0};

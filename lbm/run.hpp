@@ -8,9 +8,9 @@ namespace puffin::lbm {
 
 /// Consecutive active cells along x in one row.
 struct Run {
-  int x = 0, y = 0, z = 0;     // first cell, in voxel indices
-  int count = 0;               // active cells, >= 1
-  std::ptrdiff_t first = 0;    // slot of the first cell
+  int x = 0, y = 0, z = 0;                               // first cell, in voxel indices
+  int count = 0;                                         // active cells, >= 1
+  std::ptrdiff_t first = 0;                              // slot of the first cell
   std::array<std::array<std::ptrdiff_t, 3>, 3> shift{};  // [cy+1][cz+1]: slot offset to row (y+cy, z+cz) at equal x
 };
 

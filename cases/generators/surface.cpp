@@ -114,7 +114,7 @@ std::vector<std::array<int, 3>> triangulate_face(const std::vector<Vec3>& vertic
   const Vec3 e1 = normal.cross(Vec3::Unit(axis)).normalized(), e2 = normal.normalized().cross(e1);
   std::vector<Eigen::Vector2d> points;
   std::vector<int> vertex;
-  const Vec3 origin = vertices[loops[0][0]];
+  const Vec3& origin = vertices[loops[0][0]];
   for (auto& loop : loops)
     for (int& corner : loop) {
       const Vec3 p = vertices[corner] - origin;

@@ -15,7 +15,8 @@ namespace {
 
 /// Decay rate of a shear wave u_y = a sin(kx) on a mean flow, as a viscosity.
 double shear_wave_viscosity(int n, double tau, const std::array<double, 3>& mean, bool dbl) {
-  BoxScene scene = make_box(Vec3(n, 4, 4), 1.0, {periodic(), periodic(), periodic(), periodic(), periodic(), periodic()});
+  BoxScene scene =
+      make_box(Vec3(n, 4, 4), 1.0, {periodic(), periodic(), periodic(), periodic(), periodic(), periodic()});
   AirOptions options;
   options.smagorinsky = 0.0;
   options.double_precision = dbl;
@@ -109,7 +110,8 @@ TEST(Air, PoiseuilleFlowConvergesAtSecondOrderForEveryWallPosition) {
 }
 
 TEST(Air, ClosedBoxKeepsItsMassToRoundOff) {
-  BoxScene scene = make_box(Vec3(12, 10, 9), 1.0, {wall(), wall(), wall(), wall(), wall(), wall()}, Vec3(0.3, 0.2, 0.4));
+  BoxScene scene =
+      make_box(Vec3(12, 10, 9), 1.0, {wall(), wall(), wall(), wall(), wall(), wall()}, Vec3(0.3, 0.2, 0.4));
   AirOptions options;
   options.double_precision = true;
   Air air = make_air(scene, options);
@@ -133,7 +135,8 @@ TEST(Air, EveryInstructionSetGivesTheSameFlow) {
   if (detect_isa() == Isa::avx512) sets.push_back(Isa::avx512);
   std::vector<double> speed;
   for (const Isa isa : sets) {
-    BoxScene scene = make_box(Vec3(21, 10, 9), 1.0, {periodic(), periodic(), wall(), wall(), wall(), wall()}, Vec3(0, 0.2, 0.4));
+    BoxScene scene =
+        make_box(Vec3(21, 10, 9), 1.0, {periodic(), periodic(), wall(), wall(), wall(), wall()}, Vec3(0, 0.2, 0.4));
     AirOptions options;
     options.double_precision = true;
     options.isa = isa;

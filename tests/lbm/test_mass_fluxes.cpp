@@ -53,9 +53,10 @@ double imbalance(BoxScene scene, const Drive* given, double speed) {
 
 // Populations are of order 0.1 and 40 of them are added in double: round-off below 1e-15 x 40.
 TEST(MassFluxes, BalanceTheDensityInAClosedBoxOffTheGrid) {
-  EXPECT_LT(imbalance(make_box(Vec3(12, 10, 9), 1.0, {wall(), wall(), wall(), wall(), wall(), wall()}, Vec3(0.3, 0.2, 0.4)),
-                      nullptr, 0.0),
-            4e-14);
+  EXPECT_LT(
+      imbalance(make_box(Vec3(12, 10, 9), 1.0, {wall(), wall(), wall(), wall(), wall(), wall()}, Vec3(0.3, 0.2, 0.4)),
+                nullptr, 0.0),
+      4e-14);
 }
 
 TEST(MassFluxes, BalanceTheDensityAcrossPeriodicFaces) {
@@ -67,5 +68,6 @@ TEST(MassFluxes, BalanceTheDensityAcrossPeriodicFaces) {
 TEST(MassFluxes, BalanceTheDensityAtInletAndOutlet) {
   const Boundary inlet{"", BoundaryKind::velocity_inlet, [](const Vec3&) { return Vec3(1, 0, 0); }};
   const Boundary outlet{"", BoundaryKind::pressure_outlet, {}};
-  EXPECT_LT(imbalance(make_box(Vec3(12, 8, 8), 1.0, {inlet, outlet, wall(), wall(), wall(), wall()}), nullptr, 0.03), 4e-14);
+  EXPECT_LT(imbalance(make_box(Vec3(12, 8, 8), 1.0, {inlet, outlet, wall(), wall(), wall(), wall()}), nullptr, 0.03),
+            4e-14);
 }

@@ -50,18 +50,20 @@ class Progress {
       status.steps = state.air->steps;
       const double busy = state.effort.air + state.effort.links;
       if (busy > 0.0)
-        status.mlups = 1e-6 * static_cast<double>(state.air->rows.active_cells()) * static_cast<double>(status.steps) / busy;
+        status.mlups =
+            1e-6 * static_cast<double>(state.air->rows.active_cells()) * static_cast<double>(status.steps) / busy;
     }
     // Air steps, not simulated time, are what costs: in a ramp the end is dearer than the beginning.
     const double done = work(state.time), all = work(end_);
     if (done > 0.0) status.eta = wall * (all - done) / done;
-    if (!recorder.history().empty() && sim_.description.fines) status.ledger_error = recorder.history().back().ledger_error;
+    if (!recorder.history().empty() && sim_.description.fines)
+      status.ledger_error = recorder.history().back().ledger_error;
     output::write_status(folder_.file("status.json"), status);
     if (quiet_) return;
     char line[240];
     std::snprintf(line, sizeof line, "%-9s %7.2f of %.0f ms  %5.1f %%  %6.1f MLUPS  ETA %4.0f s  ledger %.1e",
-                  status.phase.c_str(), 1e3 * state.time, 1e3 * end_, all > 0.0 ? 100.0 * done / all : 0.0, status.mlups,
-                  status.eta.value_or(0.0), status.ledger_error.value_or(0.0));
+                  status.phase.c_str(), 1e3 * state.time, 1e3 * end_, all > 0.0 ? 100.0 * done / all : 0.0,
+                  status.mlups, status.eta.value_or(0.0), status.ledger_error.value_or(0.0));
     std::fprintf(stderr, terminal_ ? "\r%s\033[K" : "%s\n", line);
     std::fflush(stderr);
   }
@@ -115,7 +117,8 @@ void make_pictures_and_report(const std::filesystem::path& run, bool quiet) {
 }  // namespace
 
 int run_command(const RunOptions& options) {
-  if (options.resume) throw UsageError("--resume: this version writes no checkpoints, so there is nothing to resume from");
+  if (options.resume)
+    throw UsageError("--resume: this version writes no checkpoints, so there is nothing to resume from");
   const auto start = Clock::now();
   _mm_setcsr(_mm_getcsr() | 0x8040);  // flush denormals: air at rest would otherwise compute with them
   set_up_log(options.quiet);
@@ -131,7 +134,8 @@ int run_command(const RunOptions& options) {
   folder.write_text("case.toml", cases::write_resolved(c));
   if (!options.quiet && s.state.air)
     log_info(c.name + ": " + std::to_string(s.state.air->rows.active_cells()) + " cells of " + as_length(s.dx) + ", " +
-             std::to_string(threads) + " threads, " + lbm::name(lbm::detect_isa()) + "; output in " + folder.path().string());
+             std::to_string(threads) + " threads, " + lbm::name(lbm::detect_isa()) + "; output in " +
+             folder.path().string());
   Recorder recorder(s, folder);
   RunFacts facts;
   facts.threads = threads;
@@ -154,7 +158,9 @@ int run_command(const RunOptions& options) {
       facts.output += seconds_since(writing);
       if (received_signal != 0 || seconds_since(start) > options.walltime) {
         facts.state = "stopped";
-        facts.message = received_signal == SIGINT ? "interrupted" : received_signal == SIGTERM ? "terminated" : "wall time reached";
+        facts.message = received_signal == SIGINT    ? "interrupted"
+                        : received_signal == SIGTERM ? "terminated"
+                                                     : "wall time reached";
         code = received_signal == SIGINT ? interrupted : stopped;
         break;
       }

@@ -82,8 +82,7 @@ output::CarrierSummary carriers(const cases::Simulation& s) {
     const double fine = s.description.carriers->fine_mass_ratio *
                         cases::carrier_mass(s.description.carriers->diameter, s.description.carriers->density);
     double lost = 0.0;
-    for (std::size_t p = 0; p < in.size(); ++p)
-      lost += s.state.fines.initial[in.id[p]] - s.state.fines.left[in.id[p]];
+    for (std::size_t p = 0; p < in.size(); ++p) lost += s.state.fines.initial[in.id[p]] - s.state.fines.left[in.id[p]];
     c.RDF = (retained_mass - lost * fine + s.state.fines.to_wall.value() * fine) / s.dose_mass;
   }
   return c;
@@ -92,7 +91,8 @@ output::CarrierSummary carriers(const cases::Simulation& s) {
 std::vector<output::FinesSummary> fines(const cases::Simulation& s) {
   std::vector<output::FinesSummary> all;
   for (std::size_t k = 0; k < s.description.fines->scalars.size() && s.state.scalars.scalars() > 0; ++k) {
-    const coupling::Ledger ledger = coupling::ledger(s.state.fines, s.state.scalars, s.state.budget, static_cast<int>(k));
+    const coupling::Ledger ledger =
+        coupling::ledger(s.state.fines, s.state.scalars, s.state.budget, static_cast<int>(k));
     output::FinesSummary f;
     f.name = s.description.fines->scalars[k].name;
     f.FFE = ledger.FFE();
@@ -139,8 +139,9 @@ std::vector<output::SkippedWork> skipped(const cases::Simulation& s) {
                     (box - active) / active * steps * seconds_per_step});
   }
   if (e.exchanges_saved > 0)
-    list.push_back({"exchanges with the air while every carrier sleeps", e.exchanges_saved,
-                    static_cast<double>(e.exchanges_saved) * (e.exchange + e.carriers) / static_cast<double>(e.exchanges)});
+    list.push_back(
+        {"exchanges with the air while every carrier sleeps", e.exchanges_saved,
+         static_cast<double>(e.exchanges_saved) * (e.exchange + e.carriers) / static_cast<double>(e.exchanges)});
   const auto& d = s.state.carriers.statistics;
   if (d.sleeping_steps > 0) {
     const double moved = static_cast<double>(d.free_flights + d.contact_steps);
@@ -149,7 +150,9 @@ std::vector<output::SkippedWork> skipped(const cases::Simulation& s) {
   }
   if (e.scalar_steps_off > 0)
     list.push_back({"transport of fines before the first release", e.scalar_steps_off,
-                    e.scalar_steps > 0 ? static_cast<double>(e.scalar_steps_off) * e.scalars / static_cast<double>(e.scalar_steps) : 0.0});
+                    e.scalar_steps > 0
+                        ? static_cast<double>(e.scalar_steps_off) * e.scalars / static_cast<double>(e.scalar_steps)
+                        : 0.0});
   const auto& b = s.state.budget;
   if (b.cells_skipped > 0 && b.cells_computed > 0)
     list.push_back({"transport in cells without fines", b.cells_skipped,
@@ -162,14 +165,14 @@ std::vector<std::string> assumptions(const cases::Simulation& s) {
   for (const auto& [key, source] : s.description.provenance)
     if (source.origin == cases::Origin::assumed) list.push_back(key + ": " + source.note);
   if (!s.dose.empty()) list.push_back("dose: " + s.dose);
-  if (s.models.fines)
-    list.push_back("micro-models: " + s.models.fines->source);
+  if (s.models.fines) list.push_back("micro-models: " + s.models.fines->source);
   if (s.description.carriers && s.description.carriers->parcel > 1)
     list.push_back("parcels: one tracked body stands for " + std::to_string(s.description.carriers->parcel) +
                    " carriers; with ddpm scaling its adhesion per mass is " +
                    "lower than a single carrier's, so it lifts off earlier");
-  list.push_back("air: Smagorinsky large-eddy simulation without inlet turbulence and without a wall model; the founding "
-                 "study used a k-epsilon model");
+  list.push_back(
+      "air: Smagorinsky large-eddy simulation without inlet turbulence and without a wall model; the founding "
+      "study used a k-epsilon model");
   return list;
 }
 
@@ -195,9 +198,8 @@ output::Summary summarize(const cases::Simulation& s, const Recorder& recorder, 
   r.dx = s.dx;
   r.memory_peak = peak_memory();
   const auto& e = s.state.effort;
-  r.phases = {{"set-up", facts.set_up}, {"air", e.air},           {"walls and openings", e.links},
-              {"exchange", e.exchange}, {"carriers", e.carriers}, {"fines", e.fines},
-              {"transport", e.scalars}, {"output", facts.output}};
+  r.phases = {{"set-up", facts.set_up}, {"air", e.air},     {"walls and openings", e.links}, {"exchange", e.exchange},
+              {"carriers", e.carriers}, {"fines", e.fines}, {"transport", e.scalars},        {"output", facts.output}};
   double named = 0.0;
   for (const auto& p : r.phases) named += p.seconds;
   r.phases.push_back({"other", std::max(0.0, facts.wall_clock - named)});

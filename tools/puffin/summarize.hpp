@@ -10,9 +10,9 @@ namespace puffin::tools {
 
 /// What only the run loop knows.
 struct RunFacts {
-  std::string state;    // finished | diverged | stopped
+  std::string state;  // finished | diverged | stopped
   std::string message;
-  double wall_clock = 0.0;  // [s]
+  double wall_clock = 0.0;            // [s]
   double set_up = 0.0, output = 0.0;  // [s]
   int threads = 0;
 };

@@ -5,7 +5,7 @@
 #include <random>
 
 #include "coupling/mesh_walls.hpp"
-#include "shapes.hpp"
+#include "tests/lbm/geometry/shapes.hpp"
 
 namespace puffin::coupling {
 namespace {

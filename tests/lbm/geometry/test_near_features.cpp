@@ -5,7 +5,7 @@
 #include <random>
 
 #include "lbm/geometry/triangle_tree.hpp"
-#include "shapes.hpp"
+#include "tests/lbm/geometry/shapes.hpp"
 
 namespace puffin::lbm::geometry {
 namespace {

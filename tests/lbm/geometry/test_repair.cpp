@@ -6,7 +6,7 @@
 
 #include "lbm/geometry/repair.hpp"
 #include "lbm/geometry/surface_check.hpp"
-#include "shapes.hpp"
+#include "tests/lbm/geometry/shapes.hpp"
 
 namespace puffin::lbm::geometry {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "lbm/geometry/stl.hpp"
 #include "lbm/geometry/surface_check.hpp"
-#include "shapes.hpp"
+#include "tests/lbm/geometry/shapes.hpp"
 
 namespace puffin::lbm::geometry {
 namespace {

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "lbm/geometry/surface_check.hpp"
-#include "shapes.hpp"
+#include "tests/lbm/geometry/shapes.hpp"
 
 namespace puffin::lbm::geometry {
 namespace {

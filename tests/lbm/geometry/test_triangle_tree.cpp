@@ -6,7 +6,7 @@
 
 #include "lbm/geometry/triangle_distance.hpp"
 #include "lbm/geometry/triangle_tree.hpp"
-#include "shapes.hpp"
+#include "tests/lbm/geometry/shapes.hpp"
 
 namespace puffin::lbm::geometry {
 namespace {

@@ -8,7 +8,7 @@
 #include "lbm/geometry/surface_check.hpp"
 #include "lbm/geometry/voxel_report.hpp"
 #include "lbm/geometry/voxelize.hpp"
-#include "shapes.hpp"
+#include "tests/lbm/geometry/shapes.hpp"
 
 namespace puffin::lbm::geometry {
 namespace {
