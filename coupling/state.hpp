@@ -58,7 +58,7 @@ struct Models {
   std::optional<micromodels::FinesModels> fines;
   std::vector<double> diffusion;  // per scalar: Gamma / rho [m^2/s]
   lbm::ScalarOptions scalars;     // diffusivity is set from `diffusion` each step
-  int steps_per_exchange = 2;     // air steps between two exchanges with moving carriers
+  int steps_per_exchange = 4;     // air steps between two exchanges with moving carriers
   int steps_per_exchange_asleep = 16;
 };
 

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """clang-tidy with the .clang-tidy of the root finds nothing in the .cpp files that the build compiles.
 
-usage: check_tidy.py ROOT BUILD_DIR sources|tests [CLANG_TIDY]
+usage: check_tidy.py ROOT BUILD_DIR sources|FOLDER[,FOLDER...] [CLANG_TIDY]
 
-sources: all tracked .cpp files but those of tests/; tests: those. Only files that BUILD_DIR/compile_commands.json lists,
+sources: all tracked .cpp files but those of tests/; else the tracked .cpp files of these top-level folders. Only files that BUILD_DIR/compile_commands.json lists,
 and through them the headers of our folders. Says which files the build does not compile: nothing is left out in silence.
 """
 
@@ -19,7 +19,9 @@ from tree import conclude, cpp
 
 
 def chosen(root: Path, which: str) -> list[Path]:
-    return [path for path in cpp(root) if path.suffix == ".cpp" and (path.parts[0] == "tests") == (which == "tests")]
+    folders = which.split(",")
+    return [path for path in cpp(root) if path.suffix == ".cpp" and
+            (path.parts[0] in folders or (which == "sources" and path.parts[0] != "tests"))]
 
 
 def compiled(build: Path) -> set[Path]:
