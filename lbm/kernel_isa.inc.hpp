@@ -338,14 +338,11 @@ void fluxes(const FluxInput<T>& in) {
 }  // namespace
 
 // One unit per instruction set includes this file, each in its own namespace.
-// NOLINTBEGIN(misc-definitions-in-headers)
 FluxKernel<float> fluxes_float() { return &fluxes<float>; }
 FluxKernel<double> fluxes_double() { return &fluxes<double>; }
 WallKernel<float> walls_float() { return &walls<float>; }
 WallKernel<double> walls_double() { return &walls<double>; }
 Kernel<float> kernel_float(Law law) { return law == Law::rr3 ? &sweep<float, Rr3> : &sweep<float, Bgk>; }
 Kernel<double> kernel_double(Law law) { return law == Law::rr3 ? &sweep<double, Rr3> : &sweep<double, Bgk>; }
-
-// NOLINTEND(misc-definitions-in-headers)
 
 }  // namespace puffin::lbm::PUFFIN_ISA

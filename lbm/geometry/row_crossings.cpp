@@ -38,7 +38,7 @@ struct RowCrossing {
 // The lattice of 2^-40 of the box on which vertices and rows lie.
 class Lattice {
  public:
-  Lattice(const TriangleMesh& mesh, const Voxels& box, double shift) : box_(box) {
+  Lattice(const TriangleMesh& mesh, const Voxels& box, double shift) {
     low_ = box.origin - Vec3::Constant(box.dx);
     const Vec3 high = box.centre(box.size[0], box.size[1], box.size[2]) + Vec3::Constant(box.dx);
     scale_ = std::ldexp(1.0, 40) / (high - low_).maxCoeff();
@@ -68,7 +68,6 @@ class Lattice {
  private:
   std::int64_t to_lattice(double value, int d) const { return std::llround((value - low_[d]) * scale_); }
 
-  const Voxels& box_;
   Vec3 low_;
   double scale_ = 0.0;
   std::vector<LatticePoint> vertices_;
