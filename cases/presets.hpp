@@ -13,7 +13,7 @@ struct Preset {
   double longest_time;  // [s] stop.time is cut to this
 };
 
-/// quick: 1.5 times the case's dx (0.375 mm for 0.25 mm) and at most 125 ms; fast: 1.2 times; default: as the case
+/// quick: 1.5 times the case's dx (0.375 mm for 0.25 mm) and at most 121 ms; fast: 1.2 times; default: as the case
 /// says; accurate: 2/3. Such factors keep a dx that fits the device's lengths fitting as many of them as possible.
 std::span<const Preset> presets();
 

@@ -123,12 +123,12 @@ TEST(Overrides, MistakesNameTheOption) {
 TEST(Presets, ScaleTheGridAndGiveWayToSet) {
   const Case quick = parse(replaced(sample, "0.4 mm", "0.25 mm"), {}, "quick");
   EXPECT_EQ(*quick.numerics.dx, 0.375e-3);
-  EXPECT_EQ(quick.stop.time, 0.01);  // earlier than 125 ms already
+  EXPECT_EQ(quick.stop.time, 0.01);  // earlier than 121 ms already
   EXPECT_EQ(quick.provenance.at("numerics.dx").origin, Origin::derived);
   const Case longer = parse(sample, {{"stop.time", "1.0"}, {"numerics.dx", "1e-4"}}, "quick");
   EXPECT_EQ(longer.stop.time, 1.0);
   EXPECT_EQ(*longer.numerics.dx, 1e-4);
-  EXPECT_EQ(parse(replaced(sample, "10 ms", "1 s"), {}, "quick").stop.time, 0.125);
+  EXPECT_EQ(parse(replaced(sample, "10 ms", "1 s"), {}, "quick").stop.time, 0.121);
   EXPECT_THROW(parse(sample, {}, "quickest"), std::invalid_argument);
 }
 
