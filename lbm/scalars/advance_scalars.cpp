@@ -160,10 +160,23 @@ void sweep(const Update& u, const SweepKernel& kernel, int d, double steps, cons
   };
   for (int k = 0; k < scalars; ++k)
     for (const auto& [ghost, cell] : work.periodic[d]) u.concentration(k)[ghost] = u.concentration(k)[cell];
-  u.for_each_run([&](const Run& run, std::vector<SweepScalar>& views) {
-    kernel.outgoing(view(run, views), views.data(), scalars);
-    for (int k = 0; k < scalars; ++k)
-      if (u.options.scalar[k].wall == WallRule::absorb && exchange[k] > 0.0) absorb(u, d, run, k, exchange[k]);
+  const auto update = [&](const Run& run, std::vector<SweepScalar>& views) {
+    kernel.update(view(run, views), views.data(), scalars);
+  };
+  // Runs whose neighbours are all in their own chunk are finished while they are still in the cache.
+  const auto& chunks = u.rows.chunks();
+  tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {
+    std::vector<SweepScalar> views(scalars);
+    for (int r = chunks[c].first_run; r < chunks[c].last_run; ++r) {
+      if (!work.computed[r]) continue;
+      const Run& run = u.rows.runs()[r];
+      kernel.outgoing(view(run, views), views.data(), scalars);
+      for (int k = 0; k < scalars; ++k)
+        if (u.options.scalar[k].wall == WallRule::absorb && exchange[k] > 0.0) absorb(u, d, run, k, exchange[k]);
+      if (d == 0 && work.local[d][r]) update(run, views);  // no other run lies beside it in x
+    }
+    for (int r = chunks[c].first_run; r < chunks[c].last_run; ++r)
+      if (d != 0 && work.computed[r] && work.local[d][r]) update(u.rows.runs()[r], views);
   });
   for (int k = 0; k < scalars; ++k)
     for (const auto& [ghost, cell] : work.periodic[d]) {
@@ -171,8 +184,9 @@ void sweep(const Update& u, const SweepKernel& kernel, int d, double steps, cons
       u.out_low(k)[ghost] = u.out_low(k)[cell];
     }
   exchange_openings(u, d, steps, exchange);
-  u.for_each_run(
-      [&](const Run& run, std::vector<SweepScalar>& views) { kernel.update(view(run, views), views.data(), scalars); });
+  u.for_each_run([&](const Run& run, std::vector<SweepScalar>& views) {
+    if (!work.local[d][work.run_of[run.first]]) update(run, views);
+  });
   for (int k = 0; k < scalars; ++k) {  // a ghost may lie beside other cells in the other directions
     for (const auto& face : work.openings[d]) u.out_high(k)[face.ghost] = u.out_low(k)[face.ghost] = 0.0;
     for (const auto& [ghost, cell] : work.periodic[d]) u.out_high(k)[ghost] = u.out_low(k)[ghost] = 0.0;

@@ -26,20 +26,27 @@ void find_faces(const Rows& rows, const std::vector<std::ptrdiff_t>& cell, Scala
   work.run_of.assign(rows.slots(), -1);
   for (std::size_t r = 0; r < runs.size(); ++r)
     std::fill_n(work.run_of.begin() + runs[r].first, runs[r].count, static_cast<std::int32_t>(r));
+  std::vector<int> chunk_of(runs.size());
+  for (std::size_t c = 0; c < rows.chunks().size(); ++c)
+    for (int r = rows.chunks()[c].first_run; r < rows.chunks()[c].last_run; ++r) chunk_of[r] = static_cast<int>(c);
   for (int d = 0; d < 3; ++d) {
     work.neighbour_begin[d].assign(1, 0);
+    work.local[d].assign(runs.size(), 1);
     for (std::size_t r = 0; r < runs.size(); ++r) {
       std::vector<std::int32_t> found;
       for (int i = 0; i < runs[r].count; ++i)
         for (const bool high : {false, true}) {
           const std::ptrdiff_t s = runs[r].first + i;
           const std::ptrdiff_t beside = s + (high ? offset_high(runs[r], d) : offset_low(runs[r], d));
-          if (cell[beside] >= 0) found.push_back(work.run_of[cell[beside]]);
+          if (cell[beside] >= 0) {
+            found.push_back(work.run_of[cell[beside]]);
+            if (chunk_of[found.back()] != chunk_of[r]) work.local[d][r] = 0;
+          }
           if (rows.is_active(beside)) continue;
           if (cell[beside] >= 0)
-            work.periodic[d].push_back({beside, cell[beside]});
+            work.periodic[d].push_back({beside, cell[beside]}), work.local[d][r] = 0;
           else if (work.opening_patch[beside] >= 0)
-            work.openings[d].push_back({s, beside, work.opening_patch[beside], high});
+            work.openings[d].push_back({s, beside, work.opening_patch[beside], high}), work.local[d][r] = 0;
         }
       std::sort(found.begin(), found.end());
       found.erase(std::unique(found.begin(), found.end()), found.end());

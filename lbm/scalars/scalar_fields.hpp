@@ -69,7 +69,9 @@ struct ScalarWork {
   std::vector<std::int32_t> run_of;  // [slot] -1: no active cell
   std::vector<int> opening_patch;    // [slot] -1: not in an opening
   std::array<std::vector<std::int32_t>, 3> neighbour_begin, neighbour_runs;  // [d] runs that share a face in d, by run
-  std::vector<double> concentration;                                         // [scalar * slots + slot]
+  /// [d][run] everything behind the faces in d lies in the run's own chunk: no opening, no periodic face.
+  std::array<std::vector<std::uint8_t>, 3> local;
+  std::vector<double> concentration;                                // [scalar * slots + slot]
   std::vector<double> out_high, out_low;                            // [scalar * slots + slot] leaves through a face
   std::vector<std::uint8_t> computed;                               // [run] taking part in this update
   std::array<std::vector<std::int32_t>, 3> line_slots, line_begin;  // [d] lines of cells for implicit diffusion

@@ -44,31 +44,47 @@ void shared_by_scalars(int n, const double* __restrict mass, const double* __res
   }
 }
 
+/// What leaves through a face is a part of Y plus a part of the slope: shared by all scalars of equal diffusivity.
+struct Parts {
+  alignas(64) double value_high[tile], slope_high[tile], value_low[tile], slope_low[tile];
+};
+
+void combine(int n, const Coefficients& c, double exchange, Parts& p) {
+  for (int i = 0; i < n; ++i) {
+    const double high = exchange * c.link_high[i], low = exchange * c.link_low[i];
+    p.value_high[i] = c.out_high[i] + high;
+    p.slope_high[i] = c.out_high[i] * c.reach_high[i] - high * c.drift[i];
+    p.value_low[i] = c.out_low[i] + low;
+    p.slope_low[i] = -(c.out_low[i] * c.reach_low[i] + low * c.drift[i]);
+  }
+}
+
 template <class Limiter>
-void leaving(int n, const double* y_low, const double* y, const double* y_high, const Coefficients& c, double exchange,
+void leaving(int n, const double* y_low, const double* y, const double* y_high, const Coefficients& c, const Parts& p,
              double* __restrict out_high, double* __restrict out_low) {
   for (int i = 0; i < n; ++i) {
     const double slope = Limiter::slope((y[i] - y_low[i]) * c.link_low[i], (y_high[i] - y[i]) * c.link_high[i]);
-    const double midway = exchange * (y[i] - c.drift[i] * slope);
-    out_high[i] = c.out_high[i] * (y[i] + c.reach_high[i] * slope) + c.link_high[i] * midway;
-    out_low[i] = c.out_low[i] * (y[i] - c.reach_low[i] * slope) + c.link_low[i] * midway;
+    out_high[i] = p.value_high[i] * y[i] + p.slope_high[i] * slope;
+    out_low[i] = p.value_low[i] * y[i] + p.slope_low[i] * slope;
   }
 }
 
 void outgoing(const SweepRun& run, const SweepScalar* scalars, int count) {
   Coefficients c;
+  Parts p;
   for (int from = 0; from < run.count; from += tile) {
     const int n = run.count - from < tile ? run.count - from : tile;
     shared_by_scalars(n, run.mass + from, run.mass + from + run.low, run.open + from, run.open + from + run.low,
                       run.air + from, run.steps, c);
     for (int k = 0; k < count; ++k) {
       const SweepScalar& s = scalars[k];
+      if (k == 0 || s.exchange != scalars[k - 1].exchange) combine(n, c, s.exchange, p);
       const double* y = s.concentration + from;
       const auto law = s.scheme == Scheme::upwind     ? leaving<Upwind>
                        : s.scheme == Scheme::minmod   ? leaving<Minmod>
                        : s.scheme == Scheme::van_leer ? leaving<VanLeer>
                                                       : leaving<MonotonizedCentral>;
-      law(n, y + run.low, y, y + run.high, c, s.exchange, s.out_high + from, s.out_low + from);
+      law(n, y + run.low, y, y + run.high, c, p, s.out_high + from, s.out_low + from);
     }
   }
 }
