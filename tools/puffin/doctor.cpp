@@ -4,6 +4,7 @@
 #include <unistd.h>
 #include <CLI/CLI.hpp>
 
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -11,6 +12,8 @@
 #include "cases/read_case.hpp"
 #include "cases/search_path.hpp"
 #include "lbm/kernel.hpp"
+#include "tools/output/render.hpp"
+#include "tools/output/stats_file.hpp"
 #include "tools/output/vtk_series.hpp"
 #include "tools/puffin/calibration.hpp"
 #include "tools/puffin/commands.hpp"
@@ -69,6 +72,29 @@ void test_vtk(const std::filesystem::path& folder) {
     throw std::runtime_error("what was read is not what was written");
 }
 
+/// Writes a column of a history and reads it back.
+void test_hdf5(const std::filesystem::path& folder) {
+  {
+    output::StatsFile file(folder / "test.h5", {{"time", "s"}, {"value", "1"}});
+    for (const double t : {0.0, 1.0, 2.0}) file.append(std::array{t, t * t});
+    file.flush();
+  }
+  if (output::read_stats(folder / "test.h5", "value") != std::vector<double>{0.0, 1.0, 4.0})
+    throw std::runtime_error("what was read is not what was written");
+}
+
+/// Paints a triangle as the geometry view of a run and looks for a picture.
+void test_picture(const std::filesystem::path& folder) {
+  output::WallFrame wall;
+  wall.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  wall.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+  wall.patch = {0, 0, 0, 0};
+  wall.patches = {{"wall", false}};
+  output::VtkSeries(folder / "vtk", "walls").append(0.0, wall);
+  output::render(folder, output::View::geometry, {}, folder / "test.png");
+  if (std::filesystem::file_size(folder / "test.png") == 0) throw std::runtime_error("the picture is empty");
+}
+
 bool tell(const std::string& name, const std::function<std::string()>& test) {
   try {
     print(name + std::string(name.size() < 12 ? 12 - name.size() : 1, ' ') + test());
@@ -94,6 +120,8 @@ int doctor() {
     return four_digits(speed / 1e6) + " million cells a second (rr3, smagorinsky, float)";
   });
   well &= tell("vtk", [&] { return test_vtk(scratch.path()), "writes and reads"; });
+  well &= tell("hdf5", [&] { return test_hdf5(scratch.path()), "writes and reads"; });
+  well &= tell("pictures", [&] { return test_picture(scratch.path()), "painted without a display"; });
   well &= tell("micromodels", [] {
     for (const std::string& folder : cases::micromodel_directories())
       if (std::filesystem::is_directory(folder)) return folder;

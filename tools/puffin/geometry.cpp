@@ -52,7 +52,9 @@ cases::Parameters parameters_of(const GeometryArguments& a) {
     for (const std::string& set : a.sets) overrides.push_back(cases::parse_override(set));
     return cases::parse_parameters(a.kind, overrides);
   } catch (const cases::CaseError& e) {
-    throw UsageError(e.what());
+    std::string text = a.kind + ":";
+    for (const cases::Problem& p : e.problems) text += "\n  " + p.text;
+    throw UsageError(text);
   } catch (const std::invalid_argument& e) {
     throw UsageError(e.what());
   }

@@ -1,11 +1,13 @@
 // puffin: the command line. Options of a command are in its own file; here: help, errors, exit codes.
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdlib>
 #include <map>
 #include <nlohmann/json.hpp>
 
 #include "cases/case_error.hpp"
+#include "cases/spelling.hpp"
 #include "tools/puffin/commands.hpp"
 #include "tools/puffin/console.hpp"
 #include "tools/puffin/exit_codes.hpp"
@@ -49,22 +51,29 @@ int run(int argc, char** argv) {
   set_up_log(false);
   CLI::App app{"Predicts how a dry powder inhaler releases its drug: air, carriers and fines.", "puffin"};
   app.footer(exit_code_help);
-  app.require_subcommand(1);
+  app.require_subcommand(0, 1);
   app.set_version_flag("--version", PUFFIN_VERSION);
   std::map<const CLI::App*, Action> actions;
+  std::vector<std::string> names;
   for (const Command& command : all_commands()) {
+    names.push_back(command.name);
     CLI::App* sub = app.add_subcommand(command.name, command.summary);
     actions[sub] = command.add(*sub);
+  }
+  const std::string first = argc > 1 ? argv[1] : "-";
+  if (!first.starts_with('-') && std::find(names.begin(), names.end(), first) == names.end()) {
+    const std::string near = cases::nearest(first, names);
+    const std::string hint = near.empty() ? "the commands are " + cases::join(names) : "did you mean '" + near + "'?";
+    return report(UsageError("unknown command '" + first + "'; " + hint), json);
   }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
-    if (json) return report(UsageError(e.what()), true);
-    app.exit(e, std::cerr, std::cerr);
-    return usage;
+    return report(UsageError(e.what() + std::string("; see puffin --help")), json);
   }
   try {
+    if (app.get_subcommands().empty()) throw UsageError("which command? see puffin --help");
     return actions.at(app.get_subcommands().front())();
   } catch (const std::exception& e) {
     return report(e, json);
