@@ -44,7 +44,7 @@ bool all_asleep(const dem::Carriers& carriers) {
 }
 
 /// Names the first cell whose density or speed left the limits of the kernel.
-[[noreturn]] void report_bad_cell(const lbm::Air& air, const Scale& scale, double time, std::int64_t count) {
+[[noreturn]] void report_bad_cell(const lbm::Air& air, const Scale& scale, double time) {
   for (const auto& run : air.rows.runs())
     for (int n = 0; n < run.count; ++n) {
       const auto m = lbm::moments_at(air, run.first + n);
@@ -52,14 +52,14 @@ bool all_asleep(const dem::Carriers& carriers) {
       if (speed < lbm::speed_limit && std::abs(m.density_excess) < 0.5) continue;
       const Vec3 x = air.rows.centre(run.first + n);
       diverge(
-          "the air diverged at step %lld (t = %.6g s): %lld cells out of range, the first at [%.5g, %.5g, %.5g] m: "
+          "the air diverged at step %lld (t = %.6g s): out of range at [%.5g, %.5g, %.5g] m: "
           "speed %.4g (limit %.2g) and density %.4g in lattice units; %.4g m/s. Likely causes: lattice_speed too "
           "high, dx too coarse for the narrowest gap, or an inlet faster than the reference speed",
-          static_cast<long long>(air.steps), time, static_cast<long long>(count), x[0], x[1], x[2], speed,
-          lbm::speed_limit, 1.0 + m.density_excess, scale.velocity(speed));
+          static_cast<long long>(air.steps), time, x[0], x[1], x[2], speed, lbm::speed_limit, 1.0 + m.density_excess,
+          scale.velocity(speed));
     }
-  diverge("the air diverged at step %lld (t = %.6g s): %lld cells were out of range", static_cast<long long>(air.steps),
-          time, static_cast<long long>(count));
+  diverge("the air diverged at step %lld (t = %.6g s): a cell was out of range", static_cast<long long>(air.steps),
+          time);
 }
 
 /// Sets what the boundaries do in a step whose middle is at `time`.
@@ -128,7 +128,7 @@ void step_air(const Models& models, int steps, double rescale, State& s) {
       const Stopwatch watch(s.effort.links);
       lbm::apply_links(s.drive, air);
     }
-    if (report.bad > 0) report_bad_cell(air, s.scale, s.time, report.bad);
+    if (report.bad) report_bad_cell(air, s.scale, s.time);
     s.extremes.max_speed_lu = std::max(s.extremes.max_speed_lu, std::sqrt(report.max_speed2));
     s.extremes.min_tau = std::min(s.extremes.min_tau, tau);
   }

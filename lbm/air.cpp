@@ -16,7 +16,7 @@ namespace {
 /// tau_w = rho (L u/d)^2 = rho (u/u+)^2 with u+ = 14. With kappa d instead (0.2 at d = 1/2, so C_s) the friction of a
 /// channel 6 cells high came out five times too large: docs/decisions/0002-mixing-length-at-walls.md.
 std::vector<float> eddy_lengths(const Rows& rows, const LinkGeometry& surface, const AirOptions& options) {
-  std::vector<float> les;
+  std::vector<float> les(rows.slots(), 0.0F);
   if (options.smagorinsky <= 0.0) return les;
   constexpr double slope = 1.0 / 14.0;
   auto walls = std::make_shared<geometry::TriangleMesh>(), outlets = std::make_shared<geometry::TriangleMesh>();
@@ -34,7 +34,6 @@ std::vector<float> eddy_lengths(const Rows& rows, const LinkGeometry& surface, c
     return mesh->triangles.empty() ? nullptr : std::make_unique<TriangleTree>(mesh);
   };
   const auto wall_tree = tree_of(walls), outlet_tree = tree_of(outlets);
-  les.assign(rows.slots(), 0.0F);
   const double dx = rows.dx(), reach = options.smagorinsky / slope * dx;
   for_each_chunk(rows, [&](int, const Chunk& chunk) {
     for (int r = chunk.first_run; r < chunk.last_run; ++r)
@@ -56,17 +55,21 @@ std::vector<float> eddy_lengths(const Rows& rows, const LinkGeometry& surface, c
 
 template <class T>
 void cross_periodic_faces(const Links& links, Parity last, Populations<T>& p) {
-  for (const auto& image : links.images) {
+  const auto cross = [&](const Links::Image& image, bool to_ghost) {
     T* f = p.f.data() + image.direction * p.stride;
-    if (last == Parity::even)
+    if (to_ghost)
       f[image.ghost] = f[image.active];
     else
       f[image.active] = f[image.ghost];
-  }
-  for (const auto& image : links.corner_images) {
-    T* f = p.f.data() + image.direction * p.stride;
-    f[image.ghost] = f[image.active];
-  }
+  };
+  // Every image has a place of its own to write; corners read what their faces have written, so they come after.
+  oneapi::tbb::parallel_for(
+      oneapi::tbb::blocked_range<std::size_t>(0, links.images.size(), 2048),
+      [&](const auto& range) {
+        for (std::size_t k = range.begin(); k < range.end(); ++k) cross(links.images[k], last == Parity::even);
+      },
+      oneapi::tbb::static_partitioner());
+  for (const auto& image : links.corner_images) cross(image, true);
 }
 
 /// Half-way reflection on both sides of a wall thinner than a cell: what left each side comes back to it.
@@ -101,10 +104,11 @@ void apply_inlets(const Rows& rows, const Links& links, const Drive& drive, Pari
 /// into the domain: with back-flow the term would feed itself.
 /// Source: Ginzburg, Verhaeghe & d'Humieres, Commun. Comput. Phys. 3, 427 (2008).
 template <class T>
-std::int64_t apply_outlets(const Air& air, const Drive& drive, Parity last, Populations<T>& p) {
+std::int64_t apply_outlets(const Air& air, const Drive& drive, Parity last, std::size_t begin, std::size_t end,
+                           Populations<T>& p) {
   std::int64_t cut = 0;
   const auto& list = air.links.outlets;
-  for (std::size_t k = 0; k < list.size();) {
+  for (std::size_t k = begin; k < end;) {
     const std::ptrdiff_t slot = list[k].slot;
     const Run& run = air.rows.runs()[list[k].run];
     double drho = 0.0;
@@ -120,7 +124,7 @@ std::int64_t apply_outlets(const Air& air, const Drive& drive, Parity last, Popu
       u.setZero();
       ++cut;
     }
-    for (; k < list.size() && list[k].slot == slot; ++k) {
+    for (; k < end && list[k].slot == slot; ++k) {
       const int i = list[k].direction;
       const auto& c = d3q19::velocity[i];
       const double cu = u.dot(Vec3(c[0], c[1], c[2])), rho = 1.0 + drive.density_excess[list[k].patch];
@@ -181,7 +185,7 @@ KernelReport collide_and_stream(const CollisionConstants& constants, const Drive
         input.run_flags = air.run_flags.data();
         input.parity = p.next;
         input.constants = constants;
-        input.les = air.les.empty() ? nullptr : air.les.data();
+        input.les = air.les.data();
         for (int d = 0; d < 3; ++d) {
           input.uniform_force[d] = drive.uniform_force[d];
           input.forced_everywhere = input.forced_everywhere || drive.uniform_force[d] != 0.0;
@@ -191,7 +195,7 @@ KernelReport collide_and_stream(const CollisionConstants& constants, const Drive
                                             air.moments.uy.data(), air.moments.uz.data()};
         for (int d = 0; d < 3; ++d) input.force[d] = force[d];
         for (int d = 0; d < 4; ++d) input.moments[d] = moments[d];
-        const Kernel<T> kernel = select_kernel<T>(air.options.law, air.options.isa);
+        const Kernel<T> kernel = select_kernel<T>(air.options.law, constants.rescale != 1.0, air.options.isa);
         for_each_chunk(air.rows, [&](int c, const Chunk& chunk) {
           KernelInput<T> mine = input;
           mine.first_run = chunk.first_run;
@@ -206,7 +210,7 @@ KernelReport collide_and_stream(const CollisionConstants& constants, const Drive
     all.min_density_excess = std::min(all.min_density_excess, r.min_density_excess);
     all.max_density_excess = std::max(all.max_density_excess, r.max_density_excess);
     all.limited += r.limited;
-    all.bad += r.bad;
+    all.bad = all.bad || r.bad;
   }
   air.limited += all.limited;
   return all;
@@ -227,22 +231,30 @@ void apply_links(const Drive& drive, Air& air) {
         input.runs = air.rows.runs().data();
         input.walls = links.walls.data();
         input.parity = last;
-        input.back = links.back.data();
-        input.own = links.own.data();
+        input.partner = links.partner.data();
         input.moving = links.moving.empty() ? nullptr : links.moving.data();
         input.wall_speed = wall_speed;
         const WallKernel<T> kernel = select_wall_kernel<T>(air.options.isa);
+        // Each link reads and writes places of its own cell alone: walls and openings may go in any order.
+        const std::size_t outlets = links.outlet_chunks.size() - 1, walls = links.wall_chunks.size() - 1;
+        std::vector<std::int64_t> cut(outlets, 0);
         oneapi::tbb::parallel_for(
-            std::size_t{0}, links.wall_chunks.size() - 1,
+            std::size_t{0}, walls + outlets + 1,
             [&](std::size_t k) {
-              WallInput<T> mine = input;
-              mine.first = links.wall_chunks[k];
-              mine.last = links.wall_chunks[k + 1];
-              kernel(mine);
+              if (k < walls) {
+                WallInput<T> mine = input;
+                mine.first = links.wall_chunks[k];
+                mine.last = links.wall_chunks[k + 1];
+                kernel(mine);
+              } else if (k < walls + outlets) {
+                const std::size_t o = k - walls;
+                cut[o] = apply_outlets(air, drive, last, links.outlet_chunks[o], links.outlet_chunks[o + 1], p);
+              } else {
+                apply_inlets(air.rows, links, drive, last, p);
+              }
             },
             oneapi::tbb::static_partitioner());
-        apply_inlets(air.rows, links, drive, last, p);
-        air.backflow += apply_outlets(air, drive, last, p);
+        for (const std::int64_t c : cut) air.backflow += c;
         reflect_at_thin_walls(air.rows, links, p);
         p.next = last == Parity::even ? Parity::odd : Parity::even;
       },
@@ -257,8 +269,7 @@ CellMoments<double> moments_at(const Air& air, std::ptrdiff_t slot) {
         double g[19];
         for (int i = 0; i < d3q19::q; ++i) g[i] = p.arrived(run, slot, i);
         const double none[3] = {0, 0, 0};
-        const auto h = detail::hydrodynamics<false>(g, none);
-        return CellMoments<double>{h.drho, h.u[0], h.u[1], h.u[2]};
+        return moments_of(hydrodynamics<false>([&](auto i) { return g[i]; }, none));
       },
       air.populations);
 }
@@ -296,12 +307,14 @@ void set_cells(const std::function<InitialCell(const Vec3& centre)>& state, Air&
           for (int n = 0; n < run.count; ++n) {
             const std::ptrdiff_t slot = run.first + n;
             const InitialCell cell = state(air.rows.centre(slot));
-            double g[19];
-            const double u[3] = {cell.velocity[0], cell.velocity[1], cell.velocity[2]}, none[3] = {0, 0, 0};
-            double stress[6];
-            std::copy(cell.stress.begin(), cell.stress.end(), stress);
-            Rr3::assemble<false>(cell.density_excess, 1.0 + cell.density_excess, u, stress, none, g);
-            for (int i = 0; i < d3q19::q; ++i) p.arrived(run, slot, i) = static_cast<T>(g[i]);
+            const double none[3] = {0, 0, 0};
+            CellState<double> r;
+            r.drho = cell.density_excess;
+            for (int d = 0; d < 3; ++d) r.u[d] = cell.velocity[d];
+            for (int d = 0; d < 3; ++d) r.j[d] = (1.0 + r.drho) * r.u[d];
+            std::copy(cell.stress.begin(), cell.stress.end(), r.p);
+            remove_trace(r.p);
+            Rr3::assemble<false>(r, none, [&](auto i, double g) { p.arrived(run, slot, i) = static_cast<T>(g); });
           }
       },
       air.populations);

@@ -45,7 +45,7 @@ struct Air {
   BodyForce force;
   std::vector<std::uint8_t> run_flags;    // per run: run_forced, run_moments
   std::vector<std::int32_t> run_of_slot;  // -1: not active
-  std::vector<float> les;                 // 18 sqrt2 L^2 per slot; empty: none
+  std::vector<float> les;                 // 18 sqrt2 L^2 per slot
   std::int64_t steps = 0;
   std::int64_t limited = 0;   // cells x steps in which the positivity limiter acted
   std::int64_t backflow = 0;  // outlet cells x steps with the back-flow cut
@@ -70,7 +70,8 @@ void find_moments(Air& air);
 /// Sum of rho - 1 over the active cells.
 double mass_excess(const Air& air);
 
-/// Sets the equilibrium of a density and velocity at every cell; `stress`: non-equilibrium stress, zero if empty.
+/// Sets the equilibrium of a density and velocity at every cell; `stress`: non-equilibrium stress, whose trace is
+/// dropped.
 struct InitialCell {
   double density_excess = 0.0;
   std::array<double, 3> velocity{0, 0, 0};

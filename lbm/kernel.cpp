@@ -5,24 +5,24 @@
 namespace puffin::lbm {
 
 namespace baseline {
-Kernel<float> kernel_float(Law law);
-Kernel<double> kernel_double(Law law);
+Kernel<float> kernel_float(Law law, bool rescale);
+Kernel<double> kernel_double(Law law, bool rescale);
 WallKernel<float> walls_float();
 WallKernel<double> walls_double();
 FluxKernel<float> fluxes_float();
 FluxKernel<double> fluxes_double();
 }  // namespace baseline
 namespace avx2 {
-Kernel<float> kernel_float(Law law);
-Kernel<double> kernel_double(Law law);
+Kernel<float> kernel_float(Law law, bool rescale);
+Kernel<double> kernel_double(Law law, bool rescale);
 WallKernel<float> walls_float();
 WallKernel<double> walls_double();
 FluxKernel<float> fluxes_float();
 FluxKernel<double> fluxes_double();
 }  // namespace avx2
 namespace avx512 {
-Kernel<float> kernel_float(Law law);
-Kernel<double> kernel_double(Law law);
+Kernel<float> kernel_float(Law law, bool rescale);
+Kernel<double> kernel_double(Law law, bool rescale);
 WallKernel<float> walls_float();
 WallKernel<double> walls_double();
 FluxKernel<float> fluxes_float();
@@ -50,13 +50,13 @@ const char* name(Isa isa) {
 }
 
 template <class T>
-Kernel<T> select_kernel(Law law, Isa isa) {
+Kernel<T> select_kernel(Law law, bool rescale, Isa isa) {
   if constexpr (std::is_same_v<T, float>) {
-    if (isa == Isa::avx512) return avx512::kernel_float(law);
-    return isa == Isa::avx2 ? avx2::kernel_float(law) : baseline::kernel_float(law);
+    if (isa == Isa::avx512) return avx512::kernel_float(law, rescale);
+    return isa == Isa::avx2 ? avx2::kernel_float(law, rescale) : baseline::kernel_float(law, rescale);
   } else {
-    if (isa == Isa::avx512) return avx512::kernel_double(law);
-    return isa == Isa::avx2 ? avx2::kernel_double(law) : baseline::kernel_double(law);
+    if (isa == Isa::avx512) return avx512::kernel_double(law, rescale);
+    return isa == Isa::avx2 ? avx2::kernel_double(law, rescale) : baseline::kernel_double(law, rescale);
   }
 }
 
@@ -86,7 +86,7 @@ template FluxKernel<float> select_flux_kernel<float>(Isa);
 template FluxKernel<double> select_flux_kernel<double>(Isa);
 template WallKernel<float> select_wall_kernel<float>(Isa);
 template WallKernel<double> select_wall_kernel<double>(Isa);
-template Kernel<float> select_kernel<float>(Law, Isa);
-template Kernel<double> select_kernel<double>(Law, Isa);
+template Kernel<float> select_kernel<float>(Law, bool, Isa);
+template Kernel<double> select_kernel<double>(Law, bool, Isa);
 
 }  // namespace puffin::lbm

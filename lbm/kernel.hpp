@@ -11,22 +11,24 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "lbm/collision.hpp"
+#include "lbm/collision_regularised.hpp"
+#include "lbm/collision_relaxing.hpp"
 #include "lbm/run.hpp"
 
 namespace puffin::lbm {
 
-/// Consecutive cells of one run whose wall links point in the same set of directions.
+/// Consecutive cells of one run whose wall links point in the same set of directions and interpolate the same way.
 struct WallRun {
   std::ptrdiff_t first = 0;      // slot
   std::int32_t count = 0;        // cells
   std::uint32_t directions = 0;  // bit i: the link in direction i is cut by a wall
+  std::uint32_t far = 0;         // bit i: beyond half the link, so the cell's own population helps to interpolate
   std::int32_t run = 0;          // index of the run in Rows
   bool moving = false;           // some of its links end on a moving surface
   std::size_t coefficient = 0;   // first of (number of directions) x count coefficients, direction by direction
 };
 
-enum class Law { rr3, bgk };
+enum class Law { rr3, bgk, trt, central_moments };
 enum class Parity : std::uint8_t { even, odd };
 enum class Isa { baseline, avx2, avx512 };
 
@@ -39,7 +41,7 @@ struct KernelReport {
   double min_density_excess = 0.0;
   double max_density_excess = 0.0;
   std::int64_t limited = 0;  // cells in which the positivity limiter acted
-  std::int64_t bad = 0;      // cells with non-finite values, |u| or rho outside the limits
+  bool bad = false;          // some value was not finite, or |u| or rho outside the limits
 };
 
 template <class T>
@@ -51,7 +53,7 @@ struct KernelInput {
   int first_run = 0, last_run = 0;
   Parity parity = Parity::even;
   CollisionConstants constants;
-  const float* les = nullptr;  // 18 sqrt2 L^2 per slot, or null: no eddy viscosity
+  const float* les = nullptr;  // 18 sqrt2 L^2 per slot; zeros: no eddy viscosity
   double uniform_force[3] = {0, 0, 0};
   bool forced_everywhere = false;                            // a uniform force acts
   const float* force[3] = {nullptr, nullptr, nullptr};       // per slot, read in runs flagged run_forced
@@ -74,10 +76,9 @@ struct WallInput {
   const WallRun* walls = nullptr;
   std::size_t first = 0, last = 0;  // [first, last) of walls
   Parity parity = Parity::even;     // of the collision that has just been done
-  const float* back = nullptr;      // coefficients
-  const float* own = nullptr;
-  const float* moving = nullptr;  // or null
-  double wall_speed = 0.0;        // multiplies `moving` [lattice units]
+  const float* partner = nullptr;   // weight of the second population in the interpolation
+  const float* moving = nullptr;    // or null
+  double wall_speed = 0.0;          // multiplies `moving` [lattice units]
 };
 template <class T>
 using WallKernel = void (*)(const WallInput<T>&);
@@ -101,8 +102,9 @@ using FluxKernel = void (*)(const FluxInput<T>&);
 /// The best instruction set this processor offers (and the build contains).
 Isa detect_isa();
 const char* name(Isa isa);
+/// rescale: for the one step in which the time step changes (rr3, whatever the law of the other steps).
 template <class T>
-Kernel<T> select_kernel(Law law, Isa isa);
+Kernel<T> select_kernel(Law law, bool rescale, Isa isa);
 template <class T>
 WallKernel<T> select_wall_kernel(Isa isa);
 template <class T>

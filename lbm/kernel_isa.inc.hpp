@@ -17,15 +17,6 @@ namespace stdx = std::experimental;
 template <class T>
 using Pack = stdx::native_simd<T>;
 
-/// Calls body(0) ... body(18) with the directions as constants, so that arrays of packs live in registers.
-template <class F>
-[[gnu::always_inline]] inline void for_directions(F&& body) {
-  [&]<int... I>(std::integer_sequence<int, I...>) __attribute__((always_inline)) {
-    (body(std::integral_constant<int, I>()), ...);
-  }
-  (std::make_integer_sequence<int, 19>());
-}
-
 template <class T>
 inline Pack<T> load_float(const float* p) {
   Pack<T> v;
@@ -33,237 +24,393 @@ inline Pack<T> load_float(const float* p) {
   return v;
 }
 
+/// Minimum and maximum as the processor does them: the second operand where either is not a number.
 template <class P>
-[[gnu::always_inline]] inline P minimum(P a, P b) {
-  return stdx::min(a, b);
+[[gnu::always_inline]] inline P minimum(const P& a, const P& b) {
+  return stdx::min(b, a);
+}
+template <class P>
+[[gnu::always_inline]] inline P maximum(const P& a, const P& b) {
+  return stdx::max(b, a);
 }
 
-/// The rare path of the positivity limiter: scales the stress p = (1-omega) Pi down, cell by cell, until no population
-/// falls below w_i/10. `g` holds the populations with the full stress.
-template <bool Forced, class P>
-[[gnu::noinline, gnu::cold]] void limit_stress(const P& drho, const P& rho, const P (&u)[3], P (&p)[6],
-                                               const P (&force)[3], P (&g)[19]) {
+/// The rare path of the positivity limiter: scales the stress down, cell by cell, until no population falls below
+/// w_i/10; to zero where the equilibrium itself does.
+template <class L, bool Forced, class P>
+[[gnu::noinline, gnu::cold]] void limit_stress(const P (&force)[3], CellState<P>& state) {
   using T = typename P::value_type;
-  P equilibrium[19];
-  const P zero[6] = {P(T(0)), P(T(0)), P(T(0)), P(T(0)), P(T(0)), P(T(0))};
-  Rr3::assemble<Forced>(drho, rho, u, zero, force, equilibrium);
+  P full[19], none[19];
+  L::template assemble<Forced>(state, force, [&](auto i, const P& v) { full[i] = v; });
+  CellState<P> bare = state;
+  for (auto& p : bare.p) p = P(T(0));
+  L::template assemble<Forced>(bare, force, [&](auto i, const P& v) { none[i] = v; });
   P scale(T(1));
   for (int i = 0; i < 19; ++i) {
     const P floor(T(-0.9 * d3q19::weight[i]));
-    const P room = equilibrium[i] - floor, drop = equilibrium[i] - g[i];
+    const P room = none[i] - floor, drop = none[i] - full[i];
     P s = room / stdx::max(drop, P(T(1e-30)));
-    where(!(g[i] < floor), s) = P(T(1));
+    where(!(full[i] < floor), s) = P(T(1));
     where(s < P(T(0)), s) = P(T(0));
-    scale = minimum(scale, s);
+    scale = stdx::min(scale, s);
   }
-  for (auto& n : p) n = n * scale;
-  Rr3::assemble<Forced>(drho, rho, u, p, force, g);
+  for (auto& p : state.p) p = p * scale;
 }
 
-/// One pack of cells: collides g in place. Returns the moments; counts limiter events among the first `lanes` lanes.
-template <class L, bool Forced, class P>
-[[gnu::always_inline]] inline CellMoments<P> collide(P (&g)[19], const P (&force_in)[3], const CollisionConstants& c,
-                                                     const P& les, int lanes, std::int64_t& limited) {
-  using T = typename P::value_type;
-  // In the step that changes dt, `force_in` is in the new units and the populations in the old: F = F'/r^2.
-  const P old_force = P(T(Forced ? 1.0 / (c.rescale * c.rescale) : 1.0));
-  const P force_before[3] = {force_in[0] * old_force, force_in[1] * old_force, force_in[2] * old_force};
-  auto h = detail::hydrodynamics<Forced>(g, force_before);
-  CellMoments<P> found{h.drho, h.u[0], h.u[1], h.u[2]};
-  if (L::regularised || c.rescale != 1.0) {
-    const P trace = (h.pi[0] + h.pi[1] + h.pi[2]) * P(T(1.0 / 3.0));
-    for (int a = 0; a < 3; ++a) h.pi[a] = h.pi[a] - trace;
-    P tau = detail::smagorinsky_tau(h.pi, P(T(1)) / h.rho, P(T(c.tau0)), les);
-    if (c.rescale != 1.0) {
-      // New time step dt' = r dt: rho' = 1 + r^2 (rho-1), u' = r u, Pi' = r (tau'/tau) (rho'/rho) Pi.
-      const P r(T(c.rescale)), r2(T(c.rescale * c.rescale));
-      const P tau_new = P(T(c.tau0_rescaled)) + r * (tau - P(T(c.tau0)));
-      const P drho_new = r2 * h.drho;
-      const P factor = r * (tau_new / tau) * ((P(T(1)) + drho_new) / h.rho);
-      for (auto& pi : h.pi) pi = pi * factor;
-      for (auto& u : h.u) u = u * r;
-      h.drho = drho_new;
-      h.rho = P(T(1)) + drho_new;
-      tau = tau_new;
-      found = {h.drho, h.u[0], h.u[1], h.u[2]};
-    }
-    const P keep = P(T(1)) - P(T(1)) / tau;
-    P p[6];
-    for (int n = 0; n < 6; ++n) p[n] = keep * h.pi[n];
-    Rr3::assemble<Forced>(h.drho, h.rho, h.u, p, force_in, g);
-    // Positivity: f_i >= w_i/10. The smallest g_i/w_i over axes and diagonals decides; the stress is scaled down if
-    // not.
-    P low_axis = minimum(minimum(minimum(g[1], g[2]), minimum(g[3], g[4])), minimum(g[5], g[6]));
-    P low_diagonal = minimum(minimum(minimum(minimum(g[7], g[8]), minimum(g[9], g[10])),
-                                     minimum(minimum(g[11], g[12]), minimum(g[13], g[14]))),
-                             minimum(minimum(g[15], g[16]), minimum(g[17], g[18])));
-    const P lowest = minimum(minimum(g[0] * P(T(3)), low_axis * P(T(18))), low_diagonal * P(T(36)));
-    const auto negative = lowest < P(T(-0.9));
-    if (stdx::any_of(negative)) [[unlikely]] {
-      limit_stress<Forced>(h.drho, h.rho, h.u, p, force_in, g);
-      for (int l = 0; l < lanes; ++l) limited += negative[l] ? 1 : 0;
-    }
-  } else {
-    const P tau = detail::smagorinsky_tau(h.pi, P(T(1)) / h.rho, P(T(c.tau0)), les);
-    const P omega = P(T(1)) / tau;
-    const P u2 = h.u[0] * h.u[0] + h.u[1] * h.u[1] + h.u[2] * h.u[2];
-    for_directions([&](auto i) __attribute__((always_inline)) {
-      const P w{T(d3q19::weight[i])};
-      const P cx{T(d3q19::velocity[i][0])}, cy{T(d3q19::velocity[i][1])}, cz{T(d3q19::velocity[i][2])};
-      const P cu = cx * h.u[0] + cy * h.u[1] + cz * h.u[2];
-      const P eq = w * (h.drho + h.rho * (P(T(3)) * cu + P(T(4.5)) * cu * cu - P(T(1.5)) * u2));
-      g[i] = g[i] + omega * (eq - g[i]);
-      if constexpr (Forced) {
-        const P cf = cx * force_in[0] + cy * force_in[1] + cz * force_in[2];
-        const P uf = h.u[0] * force_in[0] + h.u[1] * force_in[1] + h.u[2] * force_in[2];
-        g[i] = g[i] + (P(T(1)) - P(T(0.5)) * omega) * w * (P(T(3)) * (cf - uf) + P(T(9)) * cu * cf);
-      }
-    });
-  }
-  return found;
-}
+/// What the packs of a sweep saw.
+template <class P>
+struct Seen {
+  P max_speed2{0}, min_drho{0}, max_drho{0}, not_a_number{0};
+  std::int64_t limited = 0;
+};
 
-template <class T, class L, bool Forced, Parity Step>
-void sweep_run(const KernelInput<T>& in, const Run& run, std::uint8_t flags, KernelReport& report) {
+/// How a pack lies in its run: whole; over cells that the pack before it does (lanes below `skip`); or beyond the end
+/// of a run shorter than a pack, where the lanes from `count` on belong to others, perhaps to another thread.
+enum class Fit { whole, overlapping, short_run };
+
+/// Where a run is read and written. Direction i of its first cell is found at from[i]: in its own slots before an even
+/// step, in those of its neighbours before an odd one. What leaves in direction i goes where the opposite one was
+/// found.
+template <class T>
+struct RunPlaces {
+  T* from[19];
+};
+
+/// One pack of cells: [n + skip, n + end) of a run.
+template <class T>
+struct Place {
+  T* const* from;
+  std::ptrdiff_t slot;  // of lane 0
+  int n, skip, end;
+  Fit fit;
+  std::uint8_t flags;
+};
+
+/// Packs are taken from the runs in order and treated in batches: all of a batch are read, then all relaxed, then all
+/// written. A batch may span several runs, so short rows do not wait for the square roots of their few cells.
+template <class T, class L, bool Forced>
+class Batch {
+ public:
   using P = Pack<T>;
-  constexpr int width = static_cast<int>(P::size());
-  // The 19 places of a cell: its own slots before an even step, those of its neighbours before an odd one.
-  T* place[19];
-  for (int i = 0; i < 19; ++i) {
-    const auto& c = d3q19::velocity[i];
-    place[i] = in.f + i * in.stride + run.first;
-    if (Step == Parity::odd) place[i] += c[0] + run.shift[c[1] + 1][c[2] + 1];
-  }
-  constexpr auto source = [](int i) { return Step == Parity::even ? i : d3q19::opposite(i); };
-  constexpr auto target = [](int i) { return Step == Parity::even ? d3q19::opposite(i) : i; };
-  P lane([](auto l) { return static_cast<T>(static_cast<int>(l)); });
-  P max_speed2(T(0)), min_drho(T(0)), max_drho(T(0));
-  alignas(stdx::memory_alignment_v<P>) T buffer[width];
-  for (int n = 0; n < run.count; n += width) {
-    const int lanes = std::min(width, run.count - n);
-    const bool full = lanes == width;
-    P g[19];
-    if (full) {
-      for_directions([&](auto i) __attribute__((always_inline)) {
-        g[i].copy_from(place[source(i)] + n, stdx::element_aligned);
-      });
-    } else {
-      for_directions([&](auto i) __attribute__((always_inline)) {
-        for (int l = 0; l < width; ++l) buffer[l] = place[source(i)][n + std::min(l, lanes - 1)];
-        g[i].copy_from(buffer, stdx::vector_aligned);
-      });
+  using Mask = typename P::mask_type;
+  static constexpr int width = static_cast<int>(P::size());
+
+  explicit Batch(const KernelInput<T>& in) : in_(in), constants_(in.constants) {
+    for (int i = 0; i < 19; ++i) {
+      const int o = d3q19::opposite(i);
+      base_[i] = in.parity == Parity::even ? in.f + i * in.stride : in.f + o * in.stride + d3q19::velocity[o][0];
     }
-    const std::ptrdiff_t s = run.first + n;
-    P force[3] = {P(T(0)), P(T(0)), P(T(0))};
-    if constexpr (Forced) {
-      for (int d = 0; d < 3; ++d) {
-        force[d] = P(T(in.uniform_force[d]));
-        if (flags & run_forced) force[d] = force[d] + load_float<T>(in.force[d] + s);
+  }
+
+  void add(const Run& run, std::uint8_t flags, Seen<P>& seen) {
+    T** from = runs_[run_count_++].from;
+    if (in_.parity == Parity::even) {
+      for (int i = 0; i < 19; ++i) from[i] = base_[i] + run.first;
+    } else {
+      for (int i = 0; i < 19; ++i) {
+        const auto& c = d3q19::velocity[d3q19::opposite(i)];
+        from[i] = base_[i] + run.first + run.shift[c[1] + 1][c[2] + 1];
       }
     }
-    const P les = in.les ? load_float<T>(in.les + s) : P(T(0));
-    const auto m = collide<L, Forced>(g, force, in.constants, les, lanes, report.limited);
-    if (full) {
-      for_directions([&](auto i)
-                         __attribute__((always_inline)) { g[i].copy_to(place[target(i)] + n, stdx::element_aligned); });
-    } else {
-      for_directions([&](auto i) __attribute__((always_inline)) {
-        g[i].copy_to(buffer, stdx::vector_aligned);
-        for (int l = 0; l < lanes; ++l) place[target(i)][n + l] = buffer[l];
-      });
+    int n = 0;
+    for (; n + width <= run.count; n += width) {
+      place_[count_++] = {from, run.first + n, n, 0, width, Fit::whole, flags};
+      if (count_ == size) flush_keeping(from, seen);
     }
+    if (n < run.count) {
+      if (n > 0)
+        place_[count_++] = {
+            from, run.first + run.count - width, run.count - width, width - (run.count - n), width, Fit::overlapping,
+            flags};
+      else
+        place_[count_++] = {from, run.first, 0, 0, run.count, Fit::short_run, flags};
+      if (count_ == size) flush(seen);
+    }
+  }
+
+  void flush(Seen<P>& seen) {
+    treat(seen);
+    count_ = 0;
+    run_count_ = 0;
+  }
+
+ private:
+  static constexpr int size = 8;  // packs; their states stay in the first-level cache
+
+  /// Within a run: its places move to the front.
+  void flush_keeping(T**& from, Seen<P>& seen) {
+    flush(seen);
+    T** const first = runs_[run_count_++].from;
+    if (first != from) std::copy(from, from + 19, first);
+    from = first;
+  }
+
+  [[gnu::always_inline]] static Mask lanes(const Place<T>& p) {
+    const P lane([](auto l) { return static_cast<T>(static_cast<int>(l)); });
+    return lane >= P(T(p.skip)) && lane < P(T(p.end));
+  }
+  template <Fit fit>
+  [[gnu::always_inline]] static P read(const Place<T>& p, int i, const Mask& mine) {
+    if constexpr (fit == Fit::short_run) {
+      P v(T(0));
+      where(mine, v).copy_from(p.from[i] + p.n, stdx::element_aligned);
+      return v;
+    } else {
+      return P(p.from[i] + p.n, stdx::element_aligned);
+    }
+  }
+  template <Fit fit>
+  [[gnu::always_inline]] static void write(const Place<T>& p, int i, const Mask& mine, const P& v) {
+    T* const to = p.from[d3q19::opposite(i)] + p.n;
+    if constexpr (fit == Fit::whole) v.copy_to(to, stdx::element_aligned);
+    if constexpr (fit == Fit::short_run) where(mine, v).copy_to(to, stdx::element_aligned);
+    if constexpr (fit == Fit::overlapping) {  // cheaper than a masked store, and all lanes are this run's own
+      P kept(to, stdx::element_aligned);
+      where(mine, kept) = v;
+      kept.copy_to(to, stdx::element_aligned);
+    }
+  }
+  [[gnu::always_inline]] void force_at(const Place<T>& p, double factor, P (&force)[3]) const {
+    for (int d = 0; d < 3; ++d) {
+      force[d] = P(T(0));
+      if constexpr (Forced) {
+        force[d] = P(T(in_.uniform_force[d]));
+        if (p.flags & run_forced) force[d] = force[d] + load_float<T>(in_.force[d] + p.slot);
+        force[d] = force[d] * P(T(factor));
+      }
+    }
+  }
+
+  void treat(Seen<P>& seen) {
+    if constexpr (requires { &L::template relax<P>; }) {
+      for (int k = 0; k < count_; ++k) {
+        if (place_[k].fit == Fit::short_run) [[unlikely]]
+          gather_short(place_[k], factor_[k], state_[k]);
+        else
+          gather<Fit::whole>(place_[k], factor_[k], state_[k]);
+      }
+      for (int k = 0; k < count_; ++k) factor_[k] = L::relax(constants_, factor_[k], state_[k]);
+      // Overlapping packs first: they keep lanes by loading them, and loads would wait for stores still on their way.
+      for (int k = 0; k < count_; ++k)
+        if (place_[k].fit == Fit::overlapping) finish<Fit::overlapping>(place_[k], state_[k], factor_[k], seen);
+      for (int k = 0; k < count_; ++k) {
+        if (place_[k].fit == Fit::whole) finish<Fit::whole>(place_[k], state_[k], factor_[k], seen);
+        if (place_[k].fit == Fit::short_run) finish_short(place_[k], state_[k], factor_[k], seen);
+      }
+    } else {
+      for (int k = 0; k < count_; ++k) {
+        if (place_[k].fit == Fit::whole) collide<Fit::whole>(place_[k], seen);
+        if (place_[k].fit == Fit::short_run) collide<Fit::short_run>(place_[k], seen);
+      }
+      for (int k = 0; k < count_; ++k)
+        if (place_[k].fit == Fit::overlapping) collide<Fit::overlapping>(place_[k], seen);
+    }
+  }
+
+  template <Fit fit>
+  [[gnu::always_inline]] void gather(const Place<T>& p, P& les, CellState<P>& state) const {
+    const Mask mine = fit == Fit::short_run ? lanes(p) : Mask(true);
+    P force[3];
+    force_at(p, L::old_force(constants_), force);
+    les = load_float<T>(in_.les + p.slot);
+    find_state<Forced>(
+        [&](auto i) __attribute__((always_inline)) { return read<fit>(p, i, mine); }, force, les, state);
+  }
+  [[gnu::noinline]] void gather_short(const Place<T>& p, P& les, CellState<P>& state) const {
+    gather<Fit::short_run>(p, les, state);
+  }
+  template <Fit fit>
+  [[gnu::always_inline]] void collide(const Place<T>& p, Seen<P>& seen) const {
+    const Mask mine = fit == Fit::whole ? Mask(true) : lanes(p);
+    P force[3];
+    force_at(p, 1.0, force);
+    const P les = load_float<T>(in_.les + p.slot);
+    const auto m = L::template collide<Forced>(
+        [&](auto i) __attribute__((always_inline)) { return read<fit>(p, i, mine); },
+        [&](auto i, const P& v) __attribute__((always_inline)) { write<fit>(p, i, mine, v); }, force, constants_, les);
+    look<fit>(p, m, mine, seen);
+  }
+
+  template <Fit fit>
+  [[gnu::always_inline]] void finish(const Place<T>& p, const CellState<P>& unrelaxed, const P& factor,
+                                     Seen<P>& seen) const {
+    const Mask mine = fit == Fit::whole ? Mask(true) : lanes(p);
+    CellState<P> s = unrelaxed;
+    for (auto& n : s.p) n = n * factor;
+    P force[3];
+    force_at(p, 1.0, force);
+    // Positivity, f_i >= w_i/10: the smallest g_i over axes and over diagonals decides. The populations are stored at
+    // once; in the rare case they are made again from the state, which is still here.
+    P rest, axis, diagonal;
+    L::template assemble<Forced>(
+        s, force, [&](auto i, const P& v) __attribute__((always_inline)) {
+          write<fit>(p, i, mine, v);
+          if constexpr (i == 0) rest = v;
+          if constexpr (i == 1) axis = v;
+          if constexpr (i == 7) diagonal = v;
+          if constexpr (i > 1 && i < 7) axis = minimum(axis, v);
+          if constexpr (i > 7) diagonal = minimum(diagonal, v);
+        });
+    const P lowest = minimum(minimum(rest * P(T(3)), axis * P(T(18))), diagonal * P(T(36)));
+    Mask negative = lowest < P(T(-0.9));
+    if constexpr (fit != Fit::whole) negative = negative && mine;
+    if (stdx::any_of(negative)) [[unlikely]]
+      seen.limited += write_limited<fit>(p, unrelaxed, factor, negative);
+    look<fit>(p, CellMoments<P>{s.drho, s.u[0], s.u[1], s.u[2]}, mine, seen);
+  }
+  template <Fit fit>
+  [[gnu::noinline, gnu::cold]] int write_limited(const Place<T>& p, const CellState<P>& unrelaxed, const P& factor,
+                                                 const Mask& negative) const {
+    CellState<P> s = unrelaxed;
+    for (auto& n : s.p) n = n * factor;
+    P force[3];
+    force_at(p, 1.0, force);
+    limit_stress<L, Forced>(force, s);
+    const Mask mine = lanes(p);
+    L::template assemble<Forced>(s, force, [&](auto i, const P& v) { write<fit>(p, i, mine, v); });
+    return stdx::popcount(negative);
+  }
+  [[gnu::noinline]] void finish_short(const Place<T>& p, const CellState<P>& state, const P& factor,
+                                      Seen<P>& seen) const {
+    finish<Fit::short_run>(p, state, factor, seen);
+  }
+
+  template <Fit fit>
+  [[gnu::always_inline]] void look(const Place<T>& p, CellMoments<P> m, const Mask& mine, Seen<P>& seen) const {
+    if constexpr (fit != Fit::whole)
+      for (P* v : {&m.density_excess, &m.ux, &m.uy, &m.uz}) where(!mine, *v) = P(T(0));
     const P speed2 = m.ux * m.ux + m.uy * m.uy + m.uz * m.uz;
-    const auto inside = lane < P(T(lanes));
-    // Written so that a NaN counts as bad.
-    const auto good =
-        (speed2 < P(T(speed_limit * speed_limit))) && (m.density_excess < P(T(0.5))) && (m.density_excess > P(T(-0.5)));
-    if (!stdx::all_of(good || !inside)) [[unlikely]]
-      for (int l = 0; l < lanes; ++l) report.bad += good[l] ? 0 : 1;
-    max_speed2 = stdx::max(max_speed2, speed2);  // lanes beyond the run repeat its last cell
-    min_drho = stdx::min(min_drho, m.density_excess);
-    max_drho = stdx::max(max_drho, m.density_excess);
-    if (flags & run_moments) {
-      const P* value[4] = {&m.density_excess, &m.ux, &m.uy, &m.uz};
-      for (int k = 0; k < 4; ++k) {
-        value[k]->copy_to(buffer, stdx::vector_aligned);
-        for (int l = 0; l < lanes; ++l) in.moments[k][s + l] = static_cast<float>(buffer[l]);
-      }
+    seen.max_speed2 = maximum(speed2, seen.max_speed2);
+    seen.min_drho = minimum(m.density_excess, seen.min_drho);
+    seen.max_drho = maximum(m.density_excess, seen.max_drho);
+    seen.not_a_number = seen.not_a_number + speed2;  // a sum forgets no NaN, a maximum does
+    if (!(p.flags & run_moments)) return;
+    const P* value[4] = {&m.density_excess, &m.ux, &m.uy, &m.uz};
+    alignas(stdx::memory_alignment_v<P>) T buffer[width];
+    for (int k = 0; k < 4; ++k) {
+      value[k]->copy_to(buffer, stdx::vector_aligned);
+      for (int l = p.skip; l < p.end; ++l) in_.moments[k][p.slot + l] = static_cast<float>(buffer[l]);
     }
   }
-  report.max_speed2 = std::max<double>(report.max_speed2, stdx::hmax(max_speed2));
-  report.min_density_excess = std::min<double>(report.min_density_excess, stdx::hmin(min_drho));
-  report.max_density_excess = std::max<double>(report.max_density_excess, stdx::hmax(max_drho));
-}
+
+  const KernelInput<T>& in_;
+  const CollisionConstants constants_;
+  T* base_[19];  // where direction i of slot 0 would be found, less the shift of its row
+  RunPlaces<T> runs_[size + 1];
+  int run_count_ = 0, count_ = 0;
+  Place<T> place_[size];
+  CellState<P> state_[size];
+  P factor_[size];
+};
 
 template <class T, class L>
 KernelReport sweep(const KernelInput<T>& in) {
-  KernelReport report;
+  Seen<Pack<T>> seen;
+  Batch<T, L, true> forced(in);
+  Batch<T, L, false> free(in);
   for (int r = in.first_run; r < in.last_run; ++r) {
     const std::uint8_t flags = in.run_flags[r];
-    const bool forced = in.forced_everywhere || (flags & run_forced);
-    if (in.parity == Parity::even)
-      forced ? sweep_run<T, L, true, Parity::even>(in, in.runs[r], flags, report)
-             : sweep_run<T, L, false, Parity::even>(in, in.runs[r], flags, report);
+    if (in.forced_everywhere || (flags & run_forced))
+      forced.add(in.runs[r], flags, seen);
     else
-      forced ? sweep_run<T, L, true, Parity::odd>(in, in.runs[r], flags, report)
-             : sweep_run<T, L, false, Parity::odd>(in, in.runs[r], flags, report);
+      free.add(in.runs[r], flags, seen);
   }
+  forced.flush(seen);
+  free.flush(seen);
+  KernelReport report;
+  report.limited = seen.limited;
+  report.max_speed2 = stdx::hmax(seen.max_speed2);
+  report.min_density_excess = stdx::hmin(seen.min_drho);
+  report.max_density_excess = stdx::hmax(seen.max_drho);
+  report.bad = !std::isfinite(stdx::reduce(seen.not_a_number)) || report.max_speed2 >= speed_limit * speed_limit ||
+               report.min_density_excess <= -0.5 || report.max_density_excess >= 0.5;
   return report;
 }
 
-/// Reflection at the walls for `lanes` cells of one wall run, the first at offset n (links.hpp has the equations).
-/// Width of V: a pack, or one cell.
-template <class T, class V, class Load, class LoadFloat, class Store>
-inline void reflect(const WallInput<T>& in, const WallRun& wall, int n, const Load& load,
-                    const LoadFloat& load_float_at, const Store& store) {
+/// The links of one wall run, in the order of their directions (links.hpp has the equations).
+template <class T>
+struct WallLinks {
+  const T* out[18];         // what left the cell
+  const T* partner[18];     // what helps to interpolate
+  const float* weight[18];  // of the partner
+  const float* moving[18];
+  T* back[18];      // where the reflected population goes
+  T share[18];  // of the imbalance: w_i over the sum
+  int count = 0;
+};
+
+template <class T>
+[[gnu::always_inline]] inline void find_links(const WallInput<T>& in, const WallRun& wall, WallLinks<T>& links) {
   const Run& run = in.runs[wall.run];
   const auto offset = [&](int i) {
     const auto& c = d3q19::velocity[i];
     return c[0] + run.shift[c[1] + 1][c[2] + 1];
   };
-  V incoming[18];
-  T* target[18];
-  V imbalance = constant<V>(0);
-  double weight = 0.0;
-  int links = 0;
-  for (std::uint32_t bits = wall.directions; bits != 0; bits &= bits - 1, ++links) {
-    const int i = __builtin_ctz(bits), o = d3q19::opposite(i);
-    T* here = in.f + o * in.stride + wall.first + n;                // own slot of the returning direction
-    T* beyond = in.f + i * in.stride + wall.first + n + offset(i);  // slot behind the wall
-    T* behind = in.f + o * in.stride + wall.first + n + offset(o);
-    T* own = in.f + i * in.stride + wall.first + n;
-    if (in.parity == Parity::odd) std::swap(here, beyond), std::swap(behind, own);
-    const std::size_t at = wall.coefficient + static_cast<std::size_t>(links) * wall.count + n;
-    const V a = load_float_at(in.back + at), b = load_float_at(in.own + at);
-    const V out = load(here);
-    V f = out + a * (load(behind) - out) + b * (load(own) - out);
-    if (wall.moving) f = f + constant<V>(in.wall_speed) * load_float_at(in.moving + at);
-    incoming[links] = f;
-    target[links] = beyond;
-    imbalance = imbalance + (out - f);
-    weight += d3q19::weight[i];
+  links.count = 0;
+  T sum = 0;
+  for (std::uint32_t bits = wall.directions; bits != 0; bits &= bits - 1) {
+    const int i = __builtin_ctz(bits), o = d3q19::opposite(i), k = links.count++;
+    T* const f_i = in.f + i * in.stride + wall.first;
+    T* const f_o = in.f + o * in.stride + wall.first;
+    T* const beyond = f_i + offset(i);
+    // f_own sits in the cell's own slot i after an even step, f_out(x-c) in slot o of the cell behind; odd: swapped.
+    const bool far = (wall.far >> i & 1U) != 0;
+    links.partner[k] = far == (in.parity == Parity::even) ? f_i : f_o + offset(o);
+    links.out[k] = in.parity == Parity::even ? f_o : beyond;
+    links.back[k] = in.parity == Parity::even ? beyond : f_o;
+    const std::size_t at = wall.coefficient + static_cast<std::size_t>(k) * wall.count;
+    links.weight[k] = in.partner + at;
+    links.moving[k] = wall.moving ? in.moving + at : nullptr;
+    links.share[k] = T(i < 7 ? 2 : 1);
+    sum += links.share[k];
   }
-  int k = 0;
-  for (std::uint32_t bits = wall.directions; bits != 0; bits &= bits - 1, ++k)
-    store(target[k], incoming[k] + constant<V>(d3q19::weight[__builtin_ctz(bits)] / weight) * imbalance);
+  const T each = T(1) / sum;
+  for (int k = 0; k < links.count; ++k) links.share[k] *= each;
+}
+
+/// Reflection for the cells of one pack (or one cell: V = T) from cell n of the wall run on.
+template <class V, class T>
+[[gnu::always_inline]] inline void reflect(const WallLinks<T>& links, bool moving, T speed, int n) {
+  const auto load = [n]<class S>(const S* p) __attribute__((always_inline)) {
+    if constexpr (std::is_same_v<V, T>)
+      return static_cast<T>(p[n]);
+    else if constexpr (std::is_same_v<S, T>)
+      return V(p + n, stdx::element_aligned);
+    else
+      return load_float<T>(p + n);
+  };
+  V incoming[18];
+  V imbalance = constant<V>(0);
+  for (int k = 0; k < links.count; ++k) {
+    const V out = load(links.out[k]);
+    V change = load(links.weight[k]) * (load(links.partner[k]) - out);
+    if (moving) change = change + V(speed) * load(links.moving[k]);
+    incoming[k] = out + change;
+    imbalance = imbalance - change;
+  }
+  for (int k = 0; k < links.count; ++k) {
+    const V f = incoming[k] + V(links.share[k]) * imbalance;
+    if constexpr (std::is_same_v<V, T>)
+      links.back[k][n] = f;
+    else
+      f.copy_to(links.back[k] + n, stdx::element_aligned);
+  }
 }
 
 template <class T>
 void walls(const WallInput<T>& in) {
   using P = Pack<T>;
   constexpr int width = static_cast<int>(P::size());
+  WallLinks<T> links;
+  const T speed = static_cast<T>(in.wall_speed);
   for (std::size_t w = in.first; w < in.last; ++w) {
     const WallRun& wall = in.walls[w];
-    int n = 0;
-    for (; n + width <= wall.count; n += width)
-      reflect<T, P>(
-          in, wall, n, [](const T* p) { return P(p, stdx::element_aligned); },
-          [](const float* p) { return load_float<T>(p); },
-          [](T* p, const P& v) { v.copy_to(p, stdx::element_aligned); });
-    for (; n < wall.count; ++n)
-      reflect<T, T>(
-          in, wall, n, [](const T* p) { return *p; }, [](const float* p) { return static_cast<T>(*p); },
-          [](T* p, T v) { *p = v; });
+    find_links(in, wall, links);
+    if (wall.count < width) {
+      for (int n = 0; n < wall.count; ++n) reflect<T>(links, wall.moving, speed, n);
+      continue;
+    }
+    // The last pack overlaps the one before it: what it reads has not been written, so the result is the same.
+    for (int n = 0; n < wall.count; n += width) reflect<P>(links, wall.moving, speed, std::min(n, wall.count - width));
   }
 }
 
@@ -342,7 +489,22 @@ FluxKernel<float> fluxes_float() { return &fluxes<float>; }
 FluxKernel<double> fluxes_double() { return &fluxes<double>; }
 WallKernel<float> walls_float() { return &walls<float>; }
 WallKernel<double> walls_double() { return &walls<double>; }
-Kernel<float> kernel_float(Law law) { return law == Law::rr3 ? &sweep<float, Rr3> : &sweep<float, Bgk>; }
-Kernel<double> kernel_double(Law law) { return law == Law::rr3 ? &sweep<double, Rr3> : &sweep<double, Bgk>; }
+template <class T>
+Kernel<T> kernel_of(Law law, bool rescale) {
+  if (rescale) return &sweep<T, Rr3Rescaled>;
+  switch (law) {
+    case Law::bgk:
+      return &sweep<T, Bgk>;
+    case Law::trt:
+      return &sweep<T, Trt>;
+    case Law::central_moments:
+      return &sweep<T, CentralMoments>;
+    case Law::rr3:
+      break;
+  }
+  return &sweep<T, Rr3>;
+}
+Kernel<float> kernel_float(Law law, bool rescale) { return kernel_of<float>(law, rescale); }
+Kernel<double> kernel_double(Law law, bool rescale) { return kernel_of<double>(law, rescale); }
 
 }  // namespace puffin::lbm::PUFFIN_ISA

@@ -109,10 +109,15 @@ class CutFinder {
   std::vector<Vec3> shifts_;
 };
 
-/// Weights of f_out(x-c) and f_own for a wall at distance q; zero where the cells they come from are cut off.
-std::array<float, 2> bouzidi_weights(double q, bool behind_open, bool own_valid) {
-  if (q < 0.5) return {behind_open ? static_cast<float>(1.0 - 2.0 * q) : 0.0F, 0.0F};
-  return {0.0F, own_valid ? static_cast<float>(1.0 - 1.0 / (2.0 * q)) : 0.0F};
+/// How a wall at distance q interpolates: weight of f_out(x-c), or of f_own where q >= 1/2 (far); zero, so half-way
+/// reflection, where the cell it comes from is cut off.
+struct Interpolation {
+  bool far = false;
+  float weight = 0.0F;
+};
+Interpolation interpolation(double q, bool behind_open, bool own_valid) {
+  if (q < 0.5) return {false, behind_open ? static_cast<float>(1.0 - 2.0 * q) : 0.0F};
+  return {true, own_valid ? static_cast<float>(1.0 - 1.0 / (2.0 * q)) : 0.0F};
 }
 
 }  // namespace
@@ -149,7 +154,7 @@ Links build_links(const Rows& rows, const LinkGeometry& surface, WallScheme sche
       if (cuts.empty()) continue;
       const std::ptrdiff_t slot = run.first + n;
       const Vec3 centre = rows.centre(slot);
-      std::uint32_t walls = 0;
+      std::uint32_t walls = 0, far = 0;
       for (const Cut& cut : cuts) {
         if (cut.thin) {
           const std::ptrdiff_t other = slot + neighbour_offset(run, cut.direction);
@@ -157,6 +162,7 @@ Links build_links(const Rows& rows, const LinkGeometry& surface, WallScheme sche
           if (slot < other) links.thin.push_back({slot, static_cast<std::int32_t>(r), cut.direction, p});
         } else if (kind_of(cut) == BoundaryKind::wall) {
           walls |= 1U << cut.direction;
+          if (scheme == WallScheme::halfway || cut.q >= 0.5F) far |= 1U << cut.direction;
         } else {
           const auto& boundary = surface.boundaries[cut.patch];
           const auto& c = d3q19::velocity[cut.direction];
@@ -172,10 +178,10 @@ Links build_links(const Rows& rows, const LinkGeometry& surface, WallScheme sche
         }
       }
       if (walls == 0) continue;
-      if (previous_end == n && links.walls.back().directions == walls) {
+      if (previous_end == n && links.walls.back().directions == walls && links.walls.back().far == far) {
         ++links.walls.back().count;
       } else {
-        links.walls.push_back({slot, 1, walls, static_cast<std::int32_t>(r)});
+        links.walls.push_back({slot, 1, walls, far, static_cast<std::int32_t>(r)});
       }
       previous_end = n + 1;
     }
@@ -187,8 +193,7 @@ Links build_links(const Rows& rows, const LinkGeometry& surface, WallScheme sche
     w.coefficient = total;
     total += static_cast<std::size_t>(w.count) * std::popcount(w.directions);
   }
-  links.back.assign(total, 0.0F);
-  links.own.assign(total, 0.0F);
+  links.partner.assign(total, 0.0F);
   links.wall_patch.assign(total, 0);
   if (any_moving) links.moving.assign(total, 0.0F);
   for (auto& w : links.walls) {
@@ -208,9 +213,7 @@ Links build_links(const Rows& rows, const LinkGeometry& surface, WallScheme sche
         const std::size_t at = w.coefficient + static_cast<std::size_t>(k++) * w.count + n;
         const int o = d3q19::opposite(i);
         const double q = scheme == WallScheme::halfway ? 0.5 : cut->q;
-        const auto weights = bouzidi_weights(q, !(any >> o & 1U), !(thin >> o & 1U));
-        links.back[at] = weights[0];
-        links.own[at] = weights[1];
+        links.partner[at] = interpolation(q, !(any >> o & 1U), !(thin >> o & 1U)).weight;
         const int patch = cut->patch < 0 ? wall_patch : cut->patch;
         links.wall_patch[at] = static_cast<std::int16_t>(patch);
         if (any_moving && surface.boundaries[patch].profile) {
@@ -236,6 +239,12 @@ Links build_links(const Rows& rows, const LinkGeometry& surface, WallScheme sche
       cells = 0;
     }
   }
+
+  links.outlet_chunks.push_back(0);
+  for (std::size_t k = 1; k <= links.outlets.size(); ++k)
+    if (k == links.outlets.size() ||
+        (k - links.outlet_chunks.back() >= 256 && links.outlets[k].slot != links.outlets[k - 1].slot))
+      links.outlet_chunks.push_back(k);
 
   // Inlets: the mean speed over the cells of the opening is the one asked for. On a grid that does not fit the opening
   // the cells cover a slightly different area; keeping the speed keeps the dynamic head, to which the pressure drop is
