@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lbm/slip.hpp"
+
 namespace puffin::lbm {
 
 using geometry::Vec3;
@@ -90,10 +92,12 @@ T& returning(const Run& run, const OpeningLink& link, Parity last, Populations<T
 template <class T>
 void apply_inlets(const Rows& rows, const Links& links, const Drive& drive, Parity last, Populations<T>& p) {
   // Velocity bounce-back: f_in = f_out - 6 w c.u (Ladd, J. Fluid Mech. 271, 285 (1994)); mass flux exactly as asked.
-  for (const auto& link : links.inlets) {
+  for (std::size_t k = 0; k < links.inlets.size(); ++k) {
+    const auto& link = links.inlets[k];
     const Run& run = rows.runs()[link.run];
+    const double more = drive.inlet_fluctuation.empty() ? 0.0 : drive.inlet_fluctuation[k];
     returning(run, link, last, p) =
-        p.departed(run, link.slot, link.direction, last) + static_cast<T>(link.gain * drive.speed[link.patch]);
+        p.departed(run, link.slot, link.direction, last) + static_cast<T>(link.gain * drive.speed[link.patch] + more);
   }
 }
 
@@ -241,6 +245,7 @@ void apply_links(const Drive& drive, Air& air) {
               kernel(mine);
             },
             oneapi::tbb::static_partitioner());
+        reflect_at_slip_walls(air.rows, links.slip, last, p);
         apply_inlets(air.rows, links, drive, last, p);
         air.backflow += apply_outlets(air, drive, last, p);
         reflect_at_thin_walls(air.rows, links, p);
@@ -326,6 +331,12 @@ std::array<double, 3> force_on_patch(const Air& air, int boundary) {
             }
             ++k;
           }
+        }
+        for (const SlipLink& link : air.links.slip) {
+          if (link.patch != boundary) continue;
+          const double f = p.departed(air.rows.runs()[link.source_run], link.source, link.source_direction, last);
+          const auto &in = d3q19::velocity[link.source_direction], &out = d3q19::velocity[link.direction];
+          for (int d = 0; d < 3; ++d) force[d] += f * (in[d] + out[d]);  // what comes back moves against `direction`
         }
       },
       air.populations);
