@@ -21,10 +21,10 @@ struct Simulation {
   std::shared_ptr<const lbm::geometry::TriangleTree> tree;
   lbm::geometry::Voxels voxels;  // empty without a lattice
   lbm::geometry::Pockets pockets;
-  double dx = 0.0;               // [m]
-  double reference_speed = 0.0;  // [m/s]
-  double dose_mass = 0.0;        // carriers with their fines [kg]
-  std::string dose;              // one line on how the carriers lie at the start
+  double dx = 0.0;                                // [m]
+  double reference_speed = 0.0;                   // [m/s]
+  double dose_mass = 0.0;                         // carriers with their fines [kg]
+  std::string dose;                               // one line on how the carriers lie at the start
   std::function<Vec3(const Vec3&)> stored_field;  // velocity [m/s] of another run, air.field = { run = ... }
   coupling::Models models;
   coupling::State state;

@@ -294,7 +294,7 @@ struct Line {
   std::string name;
   Vec3 from = Vec3::Zero(), to = Vec3::Zero();
   int points = 0;
-  double average_from = 0.0;  // [s]
+  double average_from = 0.0;  // [s]; stop.time: the end alone
   bool operator==(const Line&) const = default;
 };
 struct Plane {

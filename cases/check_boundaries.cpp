@@ -99,8 +99,8 @@ class Checks {
     if (one.normal.dot(two.normal) > 0.0) {
       say(key + ".with", "'" + b.patch + "' and '" + b.with + "' lie on the same side; name the opposite one");
     } else if (std::abs(one.area - two.area) > 1e-5 * one.area || shift.norm() > 1e-5 * (high_ - low_).norm()) {
-      say(key + ".with", "'" + b.patch + "' (" + format_quantity(one.area * 1e6, unit::number) + " mm^2) and '" + b.with +
-                             "' (" + format_quantity(two.area * 1e6, unit::number) +
+      say(key + ".with", "'" + b.patch + "' (" + format_quantity(one.area * 1e6, unit::number) + " mm^2) and '" +
+                             b.with + "' (" + format_quantity(two.area * 1e6, unit::number) +
                              " mm^2) do not cover each other: what leaves through one must find the other");
     }
   }
@@ -123,8 +123,8 @@ class Checks {
       if (surface_.patches.of_triangle[t] != patch) continue;
       const Vec3 n = surface_.mesh.area_vector(t).normalized();
       if (n.cwiseAbs().maxCoeff() > 1.0 - 1e-6) continue;
-      say(key + ".type", "slip walls must lie along x, y or z; '" + b.patch +
-                             "' does not: turn the geometry, or make it a wall");
+      say(key + ".type",
+          "slip walls must lie along x, y or z; '" + b.patch + "' does not: turn the geometry, or make it a wall");
       return;
     }
   }

@@ -27,8 +27,7 @@ InitialAir taylor_green_3d(double rho, double u, const Vec3& corner, const Vec3&
 InitialAir taylor_green_2d(double rho, double u, const Vec3& corner, const Vec3& k) {
   return {[=](const Vec3& at) -> Vec3 {
             const Vec3 x = k.cwiseProduct(at - corner);
-            return {-u * std::cos(x[0]) * std::sin(x[1]), u * k[0] / k[1] * std::sin(x[0]) * std::cos(x[1]),
-                    0.0};
+            return {-u * std::cos(x[0]) * std::sin(x[1]), u * k[0] / k[1] * std::sin(x[0]) * std::cos(x[1]), 0.0};
           },
           [=](const Vec3& at) {
             const Vec3 x = 2.0 * k.cwiseProduct(at - corner);

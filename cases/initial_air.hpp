@@ -13,8 +13,8 @@ struct InitialAir {
   std::function<double(const Vec3&)> pressure;  // [Pa], gauge
 };
 
-/// The initial field in a box [m]; empty: air at rest. U is the norm of initial_velocity, k = 2 pi over the edge, places
-/// from the low corner.
+/// The initial field in a box [m]; empty: air at rest. U is the norm of initial_velocity, k = 2 pi over the edge,
+/// places from the low corner.
 ///   taylor-green  a cube (edges equal to 1 %): u = U (sin x cos y cos z, -cos x sin y cos z, 0),
 ///                 p = rho U^2/16 (cos 2x + cos 2y) (cos 2z + 2)   [Taylor & Green, Proc. R. Soc. A 158, 499 (1937)]
 ///                 other boxes, two-dimensional: u = U (-cos x sin y, (Lx/Ly) sin x cos y, 0),

@@ -36,9 +36,7 @@ std::function<double(const Vec3&)> rectangle_shape(const Boundary& b, const Open
   if (!sides[0].walls && !sides[1].walls) return [](const Vec3&) { return 1.0; };
   if (b.profile == Profile::parabolic || !sides[0].walls || !sides[1].walls) {
     const int d = sides[1].walls ? 1 : 0;
-    return [o, d, side = sides[d]](const Vec3& x) {
-      return parabola(o.coordinates(x)[d] - side.offset, side.half);
-    };
+    return [o, d, side = sides[d]](const Vec3& x) { return parabola(o.coordinates(x)[d] - side.offset, side.half); };
   }
   const int narrow = sides[0].half < sides[1].half ? 0 : 1, wide = 1 - narrow;
   return [o, narrow, wide, n = sides[narrow], w = sides[wide]](const Vec3& x) {
@@ -50,9 +48,10 @@ std::function<double(const Vec3&)> rectangle_shape(const Boundary& b, const Open
 std::function<double(const Vec3&)> shape_of(const Boundary& b, const Opening& o) {
   const auto refuse = [&](const std::string& form, double part) {
     if (part < (form == "circle" ? 0.90 : 0.98))
-      throw GeometryError("profile \"" + std::string(b.profile == Profile::pipe   ? "pipe"
-                                                     : b.profile == Profile::duct ? "duct"
-                                                                                  : "parabolic") +
+      throw GeometryError("profile \"" +
+                          std::string(b.profile == Profile::pipe   ? "pipe"
+                                      : b.profile == Profile::duct ? "duct"
+                                                                   : "parabolic") +
                           "\" needs a " + form + ": the patch '" + b.patch + "' fills only " +
                           std::to_string(std::lround(100.0 * part)) + " % of the smallest around it; give " +
                           "profile = { file = ... } or \"plug\"");
@@ -95,8 +94,8 @@ double duct_series(double y, double z, double a, double b) {
   for (int n = 1; n < 400; n += 2, sign = -sign) {
     const double k = n * pi / (2.0 * a);
     // cosh(kz)/cosh(kb) without overflow
-    const double ratio = std::exp(k * (std::abs(z) - b)) * (1.0 + std::exp(-2.0 * k * std::abs(z))) /
-                         (1.0 + std::exp(-2.0 * k * b));
+    const double ratio =
+        std::exp(k * (std::abs(z) - b)) * (1.0 + std::exp(-2.0 * k * std::abs(z))) / (1.0 + std::exp(-2.0 * k * b));
     if (ratio < 1e-14) break;
     sum += sign / (static_cast<double>(n) * n * n) * ratio * std::cos(k * y);
   }

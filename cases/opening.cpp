@@ -20,8 +20,7 @@ std::vector<Vec2> hull_of(std::vector<Vec2> points) {
   for (int half = 0; half < 2; ++half) {
     const std::size_t floor = hull.size() + 1;
     for (const Vec2& p : points) {
-      while (hull.size() > floor && cross(hull.back() - hull[hull.size() - 2], p - hull.back()) <= 0.0)
-        hull.pop_back();
+      while (hull.size() > floor && cross(hull.back() - hull[hull.size() - 2], p - hull.back()) <= 0.0) hull.pop_back();
       hull.push_back(p);
     }
     hull.pop_back();
@@ -31,7 +30,7 @@ std::vector<Vec2> hull_of(std::vector<Vec2> points) {
 }
 
 struct Rectangle {
-  Vec2 low, high;   // extent along `axis` and across
+  Vec2 low, high;  // extent along `axis` and across
   Vec2 axis;
 };
 
@@ -132,8 +131,7 @@ double integrate(const Triangle& t, const std::function<double(const Vec3&)>& f)
   const double w[2] = {(155.0 - root) / 1200.0, (155.0 + root) / 1200.0};
   double sum = 9.0 / 40.0 * f((t[0] + t[1] + t[2]) / 3.0);
   for (int n = 0; n < 2; ++n)
-    for (int k = 0; k < 3; ++k)
-      sum += w[n] * f((1.0 - 2.0 * a[n]) * t[k] + a[n] * (t[(k + 1) % 3] + t[(k + 2) % 3]));
+    for (int k = 0; k < 3; ++k) sum += w[n] * f((1.0 - 2.0 * a[n]) * t[k] + a[n] * (t[(k + 1) % 3] + t[(k + 2) % 3]));
   return 0.5 * (t[1] - t[0]).cross(t[2] - t[0]).norm() * sum;
 }
 
@@ -143,7 +141,8 @@ double integrate_finely(const Triangle& t, double finest, int depth, const std::
     if ((t[(k + 1) % 3] - t[k]).norm() > (t[(longest + 1) % 3] - t[longest]).norm()) longest = k;
   const Vec3 &a = t[longest], &b = t[(longest + 1) % 3], &c = t[(longest + 2) % 3], middle = 0.5 * (a + b);
   if (depth == 0 || (b - a).norm() <= finest) return integrate(t, f);
-  return integrate_finely({a, middle, c}, finest, depth - 1, f) + integrate_finely({middle, b, c}, finest, depth - 1, f);
+  return integrate_finely({a, middle, c}, finest, depth - 1, f) +
+         integrate_finely({middle, b, c}, finest, depth - 1, f);
 }
 
 }  // namespace

@@ -15,9 +15,9 @@ struct Opening {
   double area = 0.0;             // [m^2]
   double radius = 0.0;           // [m] largest distance of a corner from the centroid
   // The smallest rectangle around the patch. Of equal sides the second is the one nearer to z, then to y.
-  Vec3 centre = Vec3::Zero();       // [m]
-  std::array<Vec3, 2> along;        // unit vectors along the longer and the shorter side
-  std::array<double, 2> half{};     // half lengths [m]
+  Vec3 centre = Vec3::Zero();                 // [m]
+  std::array<Vec3, 2> along;                  // unit vectors along the longer and the shorter side
+  std::array<double, 2> half{};               // half lengths [m]
   std::array<std::array<bool, 2>, 2> wall{};  // [side pair][low, high end of `along`]: the air sticks there
 
   /// Place of a point in the rectangle [m].

@@ -44,11 +44,11 @@ enum class VolumeFraction { none, in_drag };
 
 /// Immutable during a run.
 struct Models {
-  Air air;                                      // density, viscosity (SI)
-  std::vector<PatchDrive> patches;              // one for each boundary of lbm::Air
+  Air air;                                       // density, viscosity (SI)
+  std::vector<PatchDrive> patches;               // one for each boundary of lbm::Air
   std::vector<lbm::InletTurbulence> turbulence;  // of the inlets that have some
-  std::function<Vec3(double)> body_force;       // [N/m^3]; empty: none
-  std::function<Vec3(const Vec3&)> frozen_air;  // velocity [m/s] where there is no lattice; empty: no air at all
+  std::function<Vec3(double)> body_force;        // [N/m^3]; empty: none
+  std::function<Vec3(const Vec3&)> frozen_air;   // velocity [m/s] where there is no lattice; empty: no air at all
   TimeStepRule time_step;
   DragLaw drag = SchillerNaumann{};
   VolumeFraction volume_fraction = VolumeFraction::in_drag;

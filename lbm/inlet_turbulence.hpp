@@ -18,9 +18,9 @@ namespace puffin::lbm {
 
 struct InletTurbulence {
   int boundary = -1;
-  std::vector<std::int32_t> links;        // into Links::inlets
-  std::vector<float> cosine, sine;        // [link][mode]: population gained for a unit mean speed
-  std::vector<double> along, phase;       // per mode: wave number along the mean flow [1/cell], phase
+  std::vector<std::int32_t> links;   // into Links::inlets
+  std::vector<float> cosine, sine;   // [link][mode]: population gained for a unit mean speed
+  std::vector<double> along, phase;  // per mode: wave number along the mean flow [1/cell], phase
 };
 
 /// Modes on the links of one inlet. intensity: rms of a component over the mean speed; length: integral length scale

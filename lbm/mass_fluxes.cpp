@@ -135,8 +135,8 @@ void find_mass_fluxes(const Air& air, const FluxRoutes& routes, FaceFluxes& flux
           fluxes.mass[o.axis][o.face] += o.sign * out;
         }
         for (const auto& s : routes.slips)
-          fluxes.mass[s.axis][s.face] += s.sign * static_cast<double>(p.departed(air.rows.runs()[s.run], s.source,
-                                                                                 s.direction, last));
+          fluxes.mass[s.axis][s.face] +=
+              s.sign * static_cast<double>(p.departed(air.rows.runs()[s.run], s.source, s.direction, last));
       },
       air.populations);
   for (const auto& image : routes.images)

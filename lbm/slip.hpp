@@ -3,10 +3,10 @@
 //
 // A population that runs against the wall comes back with its wall-normal velocity turned round and its tangential
 // velocity kept: what arrives at x in direction (-n, -t) left x + t in direction (n, -t) half a step before it met the
-// wall between. Mass and tangential momentum are kept exactly, so there is no shear stress at the wall. Exact for planes
-// along the grid that lie on cell faces; other planes along the grid act where the nearest cell faces are. In corners and
-// beside walls with friction, where no such cell exists, the population comes back the way it went.
-// Source: Succi, The Lattice Boltzmann Equation (2001), section 6.2.2 (free slip).
+// wall between. Mass and tangential momentum are kept exactly, so there is no shear stress at the wall. Exact for
+// planes along the grid that lie on cell faces; other planes along the grid act where the nearest cell faces are. In
+// corners and beside walls with friction, where no such cell exists, the population comes back the way it went. Source:
+// Succi, The Lattice Boltzmann Equation (2001), section 6.2.2 (free slip).
 
 #include <vector>
 

@@ -109,10 +109,9 @@ class Checks {
     const bool amplitude = a.initial_velocity.norm() > 0.0 || n.reference_speed;
     if ((a.initial == InitialField::taylor_green || a.initial == InitialField::shear_layer) && !amplitude)
       say("air.initial", "needs an amplitude: give air.initial_velocity or numerics.reference_speed");
-    const bool moving = amplitude || std::any_of(a.boundaries.begin(), a.boundaries.end(),
-                                                 [](const Boundary& b) {
-                                                   return b.flow.index() != 0 || b.profile == Profile::file;
-                                                 });
+    const bool moving = amplitude || std::any_of(a.boundaries.begin(), a.boundaries.end(), [](const Boundary& b) {
+                          return b.flow.index() != 0 || b.profile == Profile::file;
+                        });
     if (a.model == AirModel::lbm && !moving)
       say("numerics.reference_speed", "nothing in the case says how fast the air will be (no inlet): give a speed");
     if (a.model != AirModel::lbm && !c_.carriers && !c_.fines)
