@@ -5,6 +5,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "cases/inlet_profile.hpp"
 #include "cases/units.hpp"
 #include "lbm/geometry/voxel_report.hpp"
 
@@ -79,7 +80,9 @@ std::array<bool, 3> periodic_directions(const Case& c, const Surface& s) {
   return periodic;
 }
 
-Assessment assess(const Case& c, const Surface& s) {
+Assessment assess(const Case& given, const Surface& s) {
+  Case c = given;
+  complete_file_profiles(s, c);
   Assessment a;
   a.volume = s.volume;
   a.area = s.area;

@@ -1,1 +1,10 @@
-set(PUFFIN_BUILD_SOURCES build.cpp build_air.cpp build_carriers.cpp)
+set(PUFFIN_BUILD_SOURCES
+  build.cpp
+  build_air.cpp
+  build_boundaries.cpp
+  build_carriers.cpp
+  check_boundaries.cpp
+  initial_air.cpp
+  inlet_profile.cpp
+  opening.cpp
+  point_field.cpp)

@@ -1,16 +1,25 @@
 #include "cases/build.hpp"
 
+#include <stdexcept>
+
+#include "cases/check_boundaries.hpp"
 #include "cases/derived.hpp"
+#include "cases/inlet_profile.hpp"
 
 namespace puffin::cases {
 
-std::unique_ptr<Simulation> build(const Case& c) {
+std::unique_ptr<Simulation> build(const Case& c, const StoredFieldReader& stored_field) {
   auto s = std::make_unique<Simulation>();
   s->description = c;
   s->surface = load_surface(c);
-  if (const auto problems = unknown_patches(c, s->surface.patches); !problems.empty()) throw CaseError(problems);
+  if (const auto problems = boundary_problems(c, s->surface); !problems.empty()) throw CaseError(problems);
   s->tree = std::make_shared<const lbm::geometry::TriangleTree>(s->surface.mesh);
   if (c.air.model == AirModel::lbm || c.numerics.dx) s->dx = cell_size(c.numerics, s->surface.volume);
+  complete_file_profiles(s->surface, s->description);
+  if (const auto* run = std::get_if<RunField>(&c.air.frozen); run && c.air.model == AirModel::frozen) {
+    if (!stored_field) throw std::invalid_argument("air.field: this program cannot read the field of another run");
+    s->stored_field = from_file(c, "air.field", [&] { return stored_field(*run); });
+  }
   build_air(*s);
   if (c.carriers) build_carriers(*s);
   if (c.fines) build_fines(*s);

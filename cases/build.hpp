@@ -1,6 +1,7 @@
 #pragma once
 // From a checked Case to a simulation that is ready to step.
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -20,19 +21,27 @@ struct Simulation {
   std::shared_ptr<const lbm::geometry::TriangleTree> tree;
   lbm::geometry::Voxels voxels;  // empty without a lattice
   lbm::geometry::Pockets pockets;
-  double dx = 0.0;               // [m]
-  double reference_speed = 0.0;  // [m/s]
-  double dose_mass = 0.0;        // carriers with their fines [kg]
-  std::string dose;              // one line on how the carriers lie at the start
+  double dx = 0.0;                                // [m]
+  double reference_speed = 0.0;                   // [m/s]
+  double dose_mass = 0.0;                         // carriers with their fines [kg]
+  std::string dose;                               // one line on how the carriers lie at the start
+  std::function<Vec3(const Vec3&)> stored_field;  // velocity [m/s] of another run, air.field = { run = ... }
   coupling::Models models;
   coupling::State state;
 };
 
-/// Throws CaseError (unknown patches), GeometryError, StlError, GeneratorError, std::invalid_argument with a remedy.
-std::unique_ptr<Simulation> build(const Case& c);
+/// Gives the velocity [m/s] at any point as another run has stored it: a frozen field { run, at }. The program brings
+/// one along, as this folder knows no output formats. Throws std::invalid_argument if the run has no such field.
+using StoredFieldReader = std::function<std::function<Vec3(const Vec3&)>(const RunField&)>;
+
+/// Throws CaseError (what the geometry or a table beside the case shows to be wrong), GeometryError, StlError,
+/// GeneratorError, std::invalid_argument with a remedy.
+std::unique_ptr<Simulation> build(const Case& c, const StoredFieldReader& stored_field = {});
 
 // The parts, in their order; each adds to the simulation.
 void build_air(Simulation& s);
+/// The collision of the lattice for that of the case file; the closed list of choices offers no other.
+lbm::Law law_of(Collision collision);
 void build_carriers(Simulation& s);
 void build_fines(Simulation& s);
 

@@ -294,7 +294,7 @@ struct Line {
   std::string name;
   Vec3 from = Vec3::Zero(), to = Vec3::Zero();
   int points = 0;
-  double average_from = 0.0;  // [s]
+  double average_from = 0.0;  // [s]; stop.time: the end alone
   bool operator==(const Line&) const = default;
 };
 struct Plane {
@@ -334,6 +334,16 @@ struct ValueSource {
   bool operator==(const ValueSource&) const = default;
 };
 
+/// Where each key stands in the file, for errors that only the geometry brings to light; no part of what a case says.
+struct KeyPlace {
+  std::string file;
+  int line = 0, column = 0;
+};
+struct KeyPlaces {
+  std::map<std::string, KeyPlace> of;  // by dotted key
+  bool operator==(const KeyPlaces&) const { return true; }
+};
+
 struct Case {
   std::string name;
   Geometry geometry;
@@ -345,6 +355,7 @@ struct Case {
   Output output;
   std::map<std::string, Parameter> reference;
   std::map<std::string, ValueSource> provenance;  // by dotted key, "air.boundary[0].flow_rate"
+  KeyPlaces places;
   bool operator==(const Case&) const = default;
 };
 

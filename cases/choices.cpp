@@ -16,24 +16,24 @@ constexpr Choice word(Enum value, std::string_view name, bool offered) {
 constexpr std::array air_models{word(AirModel::none, "none", yes), word(AirModel::lbm, "lbm", yes),
                                 word(AirModel::frozen, "frozen", yes)};
 constexpr std::array frozen_fields{Choice{0, "uniform", yes}, Choice{1, "shear", yes}, Choice{2, "solid-body", yes},
-                                   Choice{3, "file", no}, Choice{4, "run", no}};
+                                   Choice{3, "file", yes}, Choice{4, "run", yes}};
 constexpr std::array initial_fields{
     word(InitialField::uniform, "uniform", yes), word(InitialField::taylor_green, "taylor-green", yes),
-    word(InitialField::shear_layer, "shear-layer", yes), word(InitialField::file, "file", no)};
+    word(InitialField::shear_layer, "shear-layer", yes), word(InitialField::file, "file", yes)};
 constexpr std::array boundary_types{word(BoundaryType::velocity_inlet, "velocity-inlet", yes),
                                     word(BoundaryType::pressure_outlet, "pressure-outlet", yes),
                                     word(BoundaryType::wall, "wall", yes),
                                     word(BoundaryType::moving_wall, "moving-wall", yes),
-                                    word(BoundaryType::slip, "slip", no),
+                                    word(BoundaryType::slip, "slip", yes),
                                     word(BoundaryType::periodic, "periodic", yes)};
 constexpr std::array profiles{word(Profile::plug, "plug", yes), word(Profile::duct, "duct", yes),
                               word(Profile::parabolic, "parabolic", yes), word(Profile::pipe, "pipe", yes),
-                              word(Profile::file, "file", no)};
+                              word(Profile::file, "file", yes)};
 constexpr std::array time_steps{word(TimeStepRule::follow_ramp, "follow-ramp", yes),
                                 word(TimeStepRule::fixed, "fixed", yes)};
-constexpr std::array collisions{word(Collision::bgk, "bgk", yes), word(Collision::trt, "trt", no),
+constexpr std::array collisions{word(Collision::bgk, "bgk", yes), word(Collision::trt, "trt", yes),
                                 word(Collision::rr3, "rr3", yes), word(Collision::hrr, "hrr", no),
-                                word(Collision::central_moments, "central-moments", no)};
+                                word(Collision::central_moments, "central-moments", yes)};
 constexpr std::array walls{word(WallScheme::bouzidi, "bouzidi", yes), word(WallScheme::ibm, "ibm", no),
                            word(WallScheme::psm, "psm", no), word(WallScheme::halfway, "halfway", yes)};
 constexpr std::array les_models{word(Les::none, "none", yes), word(Les::smagorinsky, "smagorinsky", yes),
@@ -63,8 +63,8 @@ constexpr std::array scalar_walls{word(ScalarWall::reflect, "reflect", yes), wor
 }  // namespace
 
 const Features features{.wall_model = no,
-                        .inlet_turbulence = no,
-                        .body_force_file = no,
+                        .inlet_turbulence = yes,
+                        .body_force_file = yes,
                         .velocity_friction = no,
                         .rolling_friction = no,
                         .fixed_values = no};

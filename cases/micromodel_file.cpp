@@ -9,6 +9,7 @@
 
 #include "cases/format/toml_fields.hpp"
 #include "cases/format/toml_file.hpp"
+#include "cases/table_file.hpp"
 
 namespace puffin::cases {
 namespace {
@@ -22,35 +23,6 @@ using micromodels::Law;
 using micromodels::Validity;
 
 constexpr Unit mass_unit{{1, 0, 0}, "a mass", "kg", "2.84e-10 kg"};
-
-/// Columns of a CSV file with a header line, by name. Throws std::invalid_argument naming the line.
-std::map<std::string, std::vector<double>> read_columns(const std::string& file) {
-  std::istringstream in(format::read_text(file));
-  std::map<std::string, std::vector<double>> columns;
-  std::vector<std::string> names;
-  std::string line;
-  for (int number = 1; std::getline(in, line); ++number) {
-    line.erase(std::remove_if(line.begin(), line.end(), [](char c) { return c == ' ' || c == '\t' || c == '\r'; }),
-               line.end());
-    if (line.empty() || line.front() == '#') continue;
-    std::vector<std::string> cells;
-    std::istringstream row(line);
-    for (std::string cell; std::getline(row, cell, ',');) cells.push_back(cell);
-    if (names.empty()) {
-      names = cells;
-      continue;
-    }
-    if (cells.size() != names.size())
-      throw std::invalid_argument(file + ":" + std::to_string(number) + ": " + std::to_string(cells.size()) +
-                                  " values under " + std::to_string(names.size()) + " names");
-    for (std::size_t i = 0; i < cells.size(); ++i) try {
-        columns[names[i]].push_back(parse_quantity(cells[i]).value);
-      } catch (const UnitError& e) {
-        throw std::invalid_argument(file + ":" + std::to_string(number) + ": " + e.what());
-      }
-  }
-  return columns;
-}
 
 std::vector<double> sorted_values(std::vector<double> values) {
   std::sort(values.begin(), values.end());

@@ -65,6 +65,7 @@ Case parse_case(std::string_view toml_text, const std::filesystem::path& file, c
   format::check_consistency(c, findings);
   if (!findings.problems().empty()) throw CaseError(findings.sorted_problems());
   c.provenance = findings.sources();
+  for (const auto& [key, place] : findings.places()) c.places.of[key] = {place.file, place.line, place.column};
   return c;
 }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "cases/generators/generators.hpp"
-#include "cases/spelling.hpp"
 #include "lbm/geometry/stl.hpp"
 
 namespace puffin::cases {
@@ -15,6 +14,34 @@ geometry::TriangleMesh mesh_of(const Geometry& g) {
   if (const auto* stl = std::get_if<StlFile>(&g.source)) return geometry::read_stl(stl->file, stl->unit);
   const auto& generated = std::get<Generated>(g.source);
   return generate(generated.kind, generated.parameters);
+}
+
+/// Every patch that the case names.
+std::vector<std::string> named_patches(const Case& c) {
+  std::vector<std::string> names = c.output.forces;
+  for (const Boundary& b : c.air.boundaries) names.insert(names.end(), {b.patch, b.with});
+  if (c.fines)
+    for (const ScalarBoundary& b : c.fines->boundaries) names.push_back(b.patch);
+  if (c.carriers && c.carriers->fill)
+    if (const auto* patch = std::get_if<std::string>(&c.carriers->fill->at)) names.push_back(*patch);
+  return names;
+}
+
+/// The tags of the case, and those of the faces of the bounding box that it names without having tagged them.
+std::vector<geometry::PatchSelection> selections_of(const Case& c, const geometry::TriangleMesh& mesh) {
+  std::vector<geometry::PatchSelection> selections;
+  std::vector<std::string> known = mesh.solids;
+  for (const Patch& p : c.geometry.patches) {
+    selections.push_back({p.name, p.select});
+    known.push_back(p.name);
+  }
+  const std::vector<std::string> named = named_patches(c);
+  const auto has = [](const std::vector<std::string>& list, const std::string& name) {
+    return std::find(list.begin(), list.end(), name) != list.end();
+  };
+  for (const std::string& face : box_faces)
+    if (has(named, face) && !has(known, face)) selections.push_back({face, "plane:" + face});
+  return selections;
 }
 
 void refuse_fatal(const std::vector<geometry::Defect>& defects) {
@@ -49,33 +76,10 @@ Surface load_surface(const Case& c, bool self_intersections) {
   s.mesh = mesh_of(c.geometry);
   s.defects = geometry::check_surface(s.mesh, self_intersections);
   refuse_fatal(s.defects);
-  std::vector<geometry::PatchSelection> selections;
-  for (const Patch& p : c.geometry.patches) selections.push_back({p.name, p.select});
-  s.patches = geometry::assign_patches(s.mesh, selections);
+  s.patches = geometry::assign_patches(s.mesh, selections_of(c, s.mesh));
   s.volume = geometry::enclosed_volume(s.mesh);
   s.area = geometry::surface_area(s.mesh);
   return s;
-}
-
-std::vector<Problem> unknown_patches(const Case& c, const geometry::Patches& patches) {
-  std::vector<Problem> problems;
-  const auto need = [&](const std::string& key, const std::string& name) {
-    if (name.empty() || patches.find(name) >= 0) return;
-    const std::string near = nearest(name, patches.names);
-    const std::string hint = near.empty() ? "the patches are " + join(patches.names) : "did you mean '" + near + "'?";
-    problems.push_back({c.name, 0, 0, key, key + ": there is no patch '" + name + "'; " + hint});
-  };
-  for (std::size_t i = 0; i < c.air.boundaries.size(); ++i) {
-    const std::string key = "air.boundary[" + std::to_string(i) + "]";
-    need(key + ".patch", c.air.boundaries[i].patch);
-    need(key + ".with", c.air.boundaries[i].with);
-  }
-  if (c.carriers && c.carriers->fill)
-    if (const auto* patch = std::get_if<std::string>(&c.carriers->fill->at)) need("carriers.fill.at", *patch);
-  for (const std::string& patch : c.output.forces) need("output.force", patch);
-  if (c.fines)
-    for (const ScalarBoundary& b : c.fines->boundaries) need("fines.boundary", b.patch);
-  return problems;
 }
 
 std::vector<std::string> openings_of(const Case& c) {

@@ -25,13 +25,13 @@ struct Surface {
   std::vector<char> marked(const std::vector<std::string>& patches) const;
 };
 
+/// Names that need no tag: a case that says "x-min" where no solid and no tag is called so means all that lies in that
+/// extreme plane of the bounding box ("plane:x-min").
+inline const std::vector<std::string> box_faces{"x-min", "x-max", "y-min", "y-max", "z-min", "z-max"};
+
 /// Generates or reads the surface, checks it, names its patches. Throws lbm::geometry::StlError or GeometryError (all
 /// fatal defects in one message), GeneratorError for parameters that do not fit together.
 Surface load_surface(const Case& c, bool self_intersections = false);
-
-/// Names of patches in the case that the surface does not have, each with the likeliest. What read_case could not know
-/// for an STL file.
-std::vector<Problem> unknown_patches(const Case& c, const lbm::geometry::Patches& patches);
 
 /// Patches through which air passes: inlets, outlets, periodic faces (with their partners).
 std::vector<std::string> openings_of(const Case& c);

@@ -74,6 +74,20 @@ void set_drive(const Models& models, double time, const Scale& scale, lbm::Drive
   for (int d = 0; d < 3; ++d) drive.uniform_force[d] = scale.force_density_lu(force[d]);
 }
 
+/// Fluctuations on the inlets, carried by the mean flow.
+void set_inlet_turbulence(const Models& models, const Scale& scale, std::vector<double>& way, lbm::Air& air,
+                          lbm::Drive& drive) {
+  if (models.turbulence.empty()) return;
+  way.resize(models.turbulence.size(), 0.0);
+  drive.inlet_fluctuation.assign(air.links.inlets.size(), 0.0F);
+  for (std::size_t k = 0; k < way.size(); ++k) {
+    const double speed = drive.speed[models.turbulence[k].boundary];
+    way[k] += 0.5 * speed * scale.dx;
+    lbm::add_fluctuation(models.turbulence[k], way[k] / scale.dx, speed, drive.inlet_fluctuation);
+    way[k] += 0.5 * speed * scale.dx;
+  }
+}
+
 /// Marks the runs beside carriers, where the kernel reads forces or writes moments.
 void flag_runs(const std::vector<char>& touched, std::uint8_t flag, lbm::Air& air) {
   for (std::size_t r = 0; r < touched.size(); ++r) {
@@ -112,6 +126,7 @@ void step_air(const Models& models, int steps, double rescale, State& s) {
       constants.tau0 = 0.5 + (tau - 0.5) / rescale;
     }
     set_drive(models, s.time + (n + 0.5) * s.scale.dt, s.scale, s.drive);
+    set_inlet_turbulence(models, s.scale, s.inlet_way, air, s.drive);
     if (n == steps - 1) {
       std::fill(s.touched.begin(), s.touched.end(), 0);
       s.stencils.mark_runs(s.cells, s.touched);

@@ -22,6 +22,7 @@
 #include "dem/models.hpp"
 #include "dem/state.hpp"
 #include "lbm/air.hpp"
+#include "lbm/inlet_turbulence.hpp"
 #include "lbm/mass_fluxes.hpp"
 #include "lbm/scalars/advance_scalars.hpp"
 #include "micromodels/fines_models.hpp"
@@ -43,10 +44,11 @@ enum class VolumeFraction { none, in_drag };
 
 /// Immutable during a run.
 struct Models {
-  Air air;                                      // density, viscosity (SI)
-  std::vector<PatchDrive> patches;              // one for each boundary of lbm::Air
-  std::function<Vec3(double)> body_force;       // [N/m^3]; empty: none
-  std::function<Vec3(const Vec3&)> frozen_air;  // velocity [m/s] where there is no lattice; empty: no air at all
+  Air air;                                       // density, viscosity (SI)
+  std::vector<PatchDrive> patches;               // one for each boundary of lbm::Air
+  std::vector<lbm::InletTurbulence> turbulence;  // of the inlets that have some
+  std::function<Vec3(double)> body_force;        // [N/m^3]; empty: none
+  std::function<Vec3(const Vec3&)> frozen_air;   // velocity [m/s] where there is no lattice; empty: no air at all
   TimeStepRule time_step;
   DragLaw drag = SchillerNaumann{};
   VolumeFraction volume_fraction = VolumeFraction::in_drag;
@@ -91,6 +93,7 @@ struct State {
 
   std::optional<lbm::Air> air;
   lbm::Drive drive;
+  std::vector<double> inlet_way;  // [m] that the mean flow has gone since the start; one entry a Models::turbulence
   CellIndex cells;
   std::vector<char> touched;  // scratch: runs near carriers
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lbm/slip.hpp"
+
 namespace puffin::lbm {
 
 using geometry::Vec3;
@@ -93,10 +95,12 @@ T& returning(const Run& run, const OpeningLink& link, Parity last, Populations<T
 template <class T>
 void apply_inlets(const Rows& rows, const Links& links, const Drive& drive, Parity last, Populations<T>& p) {
   // Velocity bounce-back: f_in = f_out - 6 w c.u (Ladd, J. Fluid Mech. 271, 285 (1994)); mass flux exactly as asked.
-  for (const auto& link : links.inlets) {
+  for (std::size_t k = 0; k < links.inlets.size(); ++k) {
+    const auto& link = links.inlets[k];
     const Run& run = rows.runs()[link.run];
+    const double more = drive.inlet_fluctuation.empty() ? 0.0 : drive.inlet_fluctuation[k];
     returning(run, link, last, p) =
-        p.departed(run, link.slot, link.direction, last) + static_cast<T>(link.gain * drive.speed[link.patch]);
+        p.departed(run, link.slot, link.direction, last) + static_cast<T>(link.gain * drive.speed[link.patch] + more);
   }
 }
 
@@ -235,7 +239,7 @@ void apply_links(const Drive& drive, Air& air) {
         input.moving = links.moving.empty() ? nullptr : links.moving.data();
         input.wall_speed = wall_speed;
         const WallKernel<T> kernel = select_wall_kernel<T>(air.options.isa);
-        // Each link reads and writes places of its own cell alone: walls and openings may go in any order.
+        // A link writes a place of its own cell alone, and none that another link reads: any order gives the same.
         const std::size_t outlets = links.outlet_chunks.size() - 1, walls = links.wall_chunks.size() - 1;
         std::vector<std::int64_t> cut(outlets, 0);
         oneapi::tbb::parallel_for(
@@ -255,6 +259,7 @@ void apply_links(const Drive& drive, Air& air) {
             },
             oneapi::tbb::static_partitioner());
         for (const std::int64_t c : cut) air.backflow += c;
+        reflect_at_slip_walls(air.rows, links.slip, last, p);
         reflect_at_thin_walls(air.rows, links, p);
         p.next = last == Parity::even ? Parity::odd : Parity::even;
       },
@@ -339,6 +344,12 @@ std::array<double, 3> force_on_patch(const Air& air, int boundary) {
             }
             ++k;
           }
+        }
+        for (const SlipLink& link : air.links.slip) {
+          if (link.patch != boundary) continue;
+          const double f = p.departed(air.rows.runs()[link.source_run], link.source, link.source_direction, last);
+          const auto &in = d3q19::velocity[link.source_direction], &out = d3q19::velocity[link.direction];
+          for (int d = 0; d < 3; ++d) force[d] += f * (in[d] + out[d]);  // what comes back moves against `direction`
         }
       },
       air.populations);

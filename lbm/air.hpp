@@ -32,6 +32,7 @@ struct Drive {
   std::vector<double> speed;           // inlet: mean speed into the domain; wall: speed of a moving wall
   std::vector<double> density_excess;  // outlet: imposed rho - 1
   std::array<double, 3> uniform_force{0, 0, 0};
+  std::vector<float> inlet_fluctuation;  // per inlet link: population gained on top (inlet_turbulence.hpp); or empty
 };
 
 struct Air {

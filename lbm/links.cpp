@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "lbm/populations.hpp"
+#include "lbm/slip.hpp"
 
 namespace puffin::lbm {
 
@@ -168,7 +169,9 @@ Links build_links(const Rows& rows, const LinkGeometry& surface, WallScheme sche
           const auto& c = d3q19::velocity[cut.direction];
           const Vec3 direction(c[0], c[1], c[2]);
           OpeningLink link{slot, static_cast<std::int32_t>(r), cut.direction, cut.patch, 0.0};
-          if (boundary.kind == BoundaryKind::velocity_inlet) {
+          if (boundary.kind == BoundaryKind::slip) {
+            links.slip.push_back({slot, slot, link.run, link.run, cut.direction, cut.direction, cut.patch});
+          } else if (boundary.kind == BoundaryKind::velocity_inlet) {
             link.gain = -6.0 * d3q19::weight[cut.direction] *
                         direction.dot(boundary.profile(centre + static_cast<double>(cut.q) * dx * direction));
             links.inlets.push_back(link);
@@ -249,6 +252,8 @@ Links build_links(const Rows& rows, const LinkGeometry& surface, WallScheme sche
   // Inlets: the mean speed over the cells of the opening is the one asked for. On a grid that does not fit the opening
   // the cells cover a slightly different area; keeping the speed keeps the dynamic head, to which the pressure drop is
   // proportional (keeping the flow rate instead would put the error of the area twice into the pressure).
+  // Where the profile falls to zero at the walls (exact_flow) the sum over the cells is the midpoint rule for the flow
+  // rate whatever the fit, and the flow rate is kept.
   links.opening_cells_area.assign(surface.boundaries.size(), 0.0);
   for (std::size_t b = 0; b < surface.boundaries.size(); ++b) {
     const Boundary& boundary = surface.boundaries[b];
@@ -256,6 +261,7 @@ Links build_links(const Rows& rows, const LinkGeometry& surface, WallScheme sche
     Vec3 normal = Vec3::Zero();
     for (std::size_t t = 0; t < surface.patch_of_triangle.size(); ++t)
       if (surface.patch_of_triangle[t] == static_cast<int>(b)) normal += surface.mesh->area_vector(static_cast<int>(t));
+    const double patch_area = 0.5 * normal.norm() / (dx * dx);
     normal.normalize();
     double gain = 0.0, speed = 0.0, area = 0.0;
     for (const auto* list : {&links.inlets, &links.outlets})
@@ -277,8 +283,10 @@ Links build_links(const Rows& rows, const LinkGeometry& surface, WallScheme sche
       throw std::runtime_error("the profile of the inlet '" + boundary.patch + "' does not point into the fluid");
     // The mean of the profile over the cells is brought to 1, then the links to the flow of all cells at that mean.
     for (auto& link : links.inlets)
-      if (link.patch == static_cast<int>(b)) link.gain *= area / gain;
+      if (link.patch == static_cast<int>(b)) link.gain *= (boundary.exact_flow ? patch_area : area) / gain;
   }
+
+  join_slip_links(rows, links.slip);
 
   for (const auto& [ghost, active] : rows.periodic_images()) {
     const auto g = rows.cell(ghost);

@@ -21,7 +21,7 @@
 
 namespace puffin::lbm {
 
-enum class BoundaryKind { wall, velocity_inlet, pressure_outlet, periodic };
+enum class BoundaryKind { wall, velocity_inlet, pressure_outlet, periodic, slip };
 enum class WallScheme { bouzidi, halfway };
 
 /// What happens at one patch of the surface.
@@ -31,6 +31,9 @@ struct Boundary {
   /// Moving wall: velocity of the surface at a point, in units of the wall speed; empty: at rest.
   /// Velocity inlet: profile at a point relative to the section mean, pointing into the domain.
   std::function<geometry::Vec3(const geometry::Vec3&)> profile;
+  /// Velocity inlet: the flow is the mean speed times the area of the patch (true), or times the area of its cells: see
+  /// build_links.
+  bool exact_flow = false;
 };
 
 /// One link cut by an opening of the domain.
@@ -40,6 +43,14 @@ struct OpeningLink {
   std::int16_t direction = 0;
   std::int16_t patch = 0;
   double gain = 0.0;  // velocity inlet: population gained for a unit mean speed: -6 w c.profile
+};
+
+/// One link cut by a slip wall: what comes back along it is what left `source` in `source_direction`.
+struct SlipLink {
+  std::ptrdiff_t slot = 0, source = 0;
+  std::int32_t run = 0, source_run = 0;
+  std::int16_t direction = 0, source_direction = 0;
+  std::int16_t patch = 0;
 };
 
 struct Links {
@@ -58,6 +69,7 @@ struct Links {
     std::int16_t patch = 0;
   };
   std::vector<ThinLink> thin;
+  std::vector<SlipLink> slip;  // slip.hpp
   /// Populations that cross a periodic face: direction, ghost slot, the active slot it mirrors.
   struct Image {
     std::int16_t direction = 0;

@@ -88,6 +88,15 @@ FluxRoutes find_routes(const Air& air, FaceFluxes& fluxes) {
       routes.openings.push_back(
           {link.slot, link.run, link.direction, static_cast<std::int8_t>(axis), static_cast<std::int8_t>(sign), face});
     }
+  for (const SlipLink& link : air.links.slip) {
+    if (link.source == link.slot) continue;
+    // The part of the velocity that the wall leaves as it is.
+    const auto &in = d3q19::velocity[link.source_direction], &out = d3q19::velocity[link.direction];
+    for (int d = 0; d < 3; ++d)
+      if (in[d] != 0 && in[d] == -out[d])
+        routes.slips.push_back({link.source, link.source_run, link.source_direction, static_cast<std::int8_t>(d),
+                                static_cast<std::int8_t>(in[d]), in[d] > 0 ? link.source : link.slot});
+  }
   for (const auto& [ghost, active] : rows.periodic_images()) {
     routes.images.push_back({ghost, active});
     for (int d = 0; d < 3; ++d)
@@ -125,6 +134,9 @@ void find_mass_fluxes(const Air& air, const FluxRoutes& routes, FaceFluxes& flux
                              static_cast<double>(p.arrived(run, o.slot, d3q19::opposite(o.direction)));
           fluxes.mass[o.axis][o.face] += o.sign * out;
         }
+        for (const auto& s : routes.slips)
+          fluxes.mass[s.axis][s.face] +=
+              s.sign * static_cast<double>(p.departed(air.rows.runs()[s.run], s.source, s.direction, last));
       },
       air.populations);
   for (const auto& image : routes.images)

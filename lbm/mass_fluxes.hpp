@@ -25,6 +25,15 @@ struct FluxRoutes {
     std::ptrdiff_t face;     // slot that holds this face
   };
   std::vector<Opening> openings;
+  /// What slides along a slip wall from one cell to the next.
+  struct Slip {
+    std::ptrdiff_t source;  // the cell that it leaves in `direction`
+    std::int32_t run;
+    std::int16_t direction;
+    std::int8_t axis, sign;  // through the face +-axis of the source
+    std::ptrdiff_t face;     // slot that holds this face
+  };
+  std::vector<Slip> slips;
   struct Copy {
     std::ptrdiff_t ghost, active;
   };

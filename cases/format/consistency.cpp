@@ -7,6 +7,7 @@
 
 #include "cases/generators/generators.hpp"
 #include "cases/spelling.hpp"
+#include "cases/surface.hpp"
 #include "cases/units.hpp"
 
 namespace puffin::cases::format {
@@ -54,6 +55,7 @@ class Checks {
 
   void known_patch(const std::string& key, const std::string& name) {
     if (!patches_known_ || name.empty() || std::find(patches_.begin(), patches_.end(), name) != patches_.end()) return;
+    if (std::find(box_faces.begin(), box_faces.end(), name) != box_faces.end()) return;
     const std::string near = nearest(name, patches_);
     say(key, "there is no patch '" + name + "'; " +
                  (near.empty() ? "the patches are " + join(patches_) : "did you mean '" + near + "'?"));
@@ -70,10 +72,9 @@ class Checks {
         say(key + ".patch", "patch '" + b.patch + "' has two boundaries; keep one");
       inlet = inlet || b.type == BoundaryType::velocity_inlet;
       outlet = outlet || b.type == BoundaryType::pressure_outlet;
-      if (b.type == BoundaryType::periodic) {
-        known_patch(key + ".with", b.with);
-        if (b.with == b.patch) say(key + ".with", "a patch cannot be periodic with itself; name the opposite one");
-      }
+      if (b.type == BoundaryType::periodic) periodic(key, b);
+      if (const auto* v = std::get_if<Velocity>(&b.flow); v && b.type == BoundaryType::velocity_inlet)
+        if (v->value.norm() == 0.0) say(key + ".velocity", "an inlet without speed is a wall: give type = \"wall\"");
       if (const auto* rate = std::get_if<FlowRate>(&b.flow))
         if (std::any_of(rate->table.value.begin(), rate->table.value.end(), [](double q) { return q < 0.0; }))
           say(key + ".flow_rate", "an inlet's flow rate must not be negative");
@@ -82,6 +83,21 @@ class Checks {
     }
     if (c_.air.model == AirModel::lbm && inlet && !outlet)
       say("air.boundary", "there is a velocity-inlet but no pressure-outlet: the air has nowhere to go");
+  }
+
+  /// A pair may be named from one side or from both; its patches belong to this pair alone.
+  void periodic(const std::string& key, const Boundary& b) {
+    known_patch(key + ".with", b.with);
+    if (b.with == b.patch) say(key + ".with", "a patch cannot be periodic with itself; name the opposite one");
+    for (const Boundary& other : c_.air.boundaries) {
+      if (&other == &b) continue;
+      if (other.patch == b.with && other.type != BoundaryType::periodic)
+        say(key + ".with", "the patch '" + b.with + "' has another boundary already; a periodic patch has no other");
+      else if (other.type == BoundaryType::periodic && other.patch == b.with && other.with != b.patch)
+        say(key + ".with", "the patch '" + b.with + "' is periodic with '" + other.with + "'; a pair has two patches");
+      else if (other.type == BoundaryType::periodic && other.with == b.with && other.patch != b.patch)
+        say(key + ".with", "the patch '" + b.with + "' is the partner of '" + other.patch + "' already");
+    }
   }
 
   void air() {
@@ -93,8 +109,9 @@ class Checks {
     const bool amplitude = a.initial_velocity.norm() > 0.0 || n.reference_speed;
     if ((a.initial == InitialField::taylor_green || a.initial == InitialField::shear_layer) && !amplitude)
       say("air.initial", "needs an amplitude: give air.initial_velocity or numerics.reference_speed");
-    const bool moving = amplitude || std::any_of(a.boundaries.begin(), a.boundaries.end(),
-                                                 [](const Boundary& b) { return b.flow.index() != 0; });
+    const bool moving = amplitude || std::any_of(a.boundaries.begin(), a.boundaries.end(), [](const Boundary& b) {
+                          return b.flow.index() != 0 || b.profile == Profile::file;
+                        });
     if (a.model == AirModel::lbm && !moving)
       say("numerics.reference_speed", "nothing in the case says how fast the air will be (no inlet): give a speed");
     if (a.model != AirModel::lbm && !c_.carriers && !c_.fines)
@@ -150,7 +167,8 @@ class Checks {
     unique_names("output.probe", o.probes);
     unique_names("output.line", o.lines);
     unique_names("output.plane", o.planes);
-    for (const std::string& patch : o.forces) known_patch("output.force", patch);
+    for (const std::string& patch : o.forces)
+      if (patch != "wall") known_patch("output.force", patch);
     for (std::size_t i = 0; i < o.fields.size(); ++i)
       if (o.fields[i].fines && !c_.fines)
         say(indexed("output.fields", i) + ".what", "there are no fines: the case has no [fines]");

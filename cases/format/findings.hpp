@@ -25,6 +25,7 @@ class Findings {
   const std::string& file() const { return file_; }
   /// Remembers where a key (dotted, with [i] for lists) is written.
   void place(const std::string& key, Place where) { places_[key] = std::move(where); }
+  const std::map<std::string, Place>& places() const { return places_; }
   /// The place of a key, or of the nearest table around it.
   Place where(std::string key) const;
 

@@ -20,7 +20,8 @@ void describe_frozen(Fields& io, FrozenField& field) {
       if (io.reading() && from_run) field.emplace<RunField>();
       if (io.reading() && !from_run) field.emplace<FieldFile>();
       if (auto* run = std::get_if<RunField>(&field)) {
-        f.file("run", run->run, {});
+        static const std::array<std::string, 1> here{"."};  // runs are written below the folder one works in
+        f.file("run", run->run, here);
         f.number("at", run->at, unit::time, Range::non_negative, required);
       } else {
         f.file("file", std::get<FieldFile>(field).file, {});

@@ -45,7 +45,7 @@ void describe(Fields& io, Plane& plane) {
     }
 }
 
-void describe(Fields& io, Line& line) {
+void describe(Fields& io, Line& line, double end) {
   io.text("name", line.name, required);
   io.vector("from", line.from, unit::length, required);
   io.vector("to", line.to, unit::length, required);
@@ -53,7 +53,8 @@ void describe(Fields& io, Line& line) {
   io.integer("points", points, Range::positive, otherwise<std::int64_t>(100));
   if (points < 2 || points > 1'000'000) io.problem("points", "a line has 2 to 1000000 points");
   line.points = static_cast<int>(points);
-  io.number("average_from", line.average_from, unit::time, Range::non_negative, otherwise(0.0));
+  io.number("average_from", line.average_from, unit::time, Range::non_negative,
+            derived(end, "stop.time: the end alone"));
 }
 
 void describe(Fields& io, Checkpoints& c) {
@@ -86,7 +87,7 @@ void describe(Fields& io, Output& o, const Case& c) {
     f.text("name", probe.name, required);
     f.vector("at", probe.at, unit::length, required);
   });
-  io.list("line", o.lines, [](Fields& f, Line& line) { describe(f, line); });
+  io.list("line", o.lines, [&](Fields& f, Line& line) { describe(f, line, c.stop.time); });
   io.list("plane", o.planes, [](Fields& f, Plane& plane) { describe(f, plane); });
   io.texts("force", o.forces, otherwise(std::vector<std::string>{}));
   if (io.has("pressure_window", o.pressure_window.has_value())) {

@@ -7,6 +7,7 @@
 #include "cases/derived.hpp"
 #include "cases/micromodel_file.hpp"
 #include "cases/read_case.hpp"
+#include "cases/check_boundaries.hpp"
 #include "cases/surface.hpp"
 #include "cases/write_case.hpp"
 
@@ -39,7 +40,7 @@ TEST(ShippedCases, TheirSurfacesAreClosedAndHaveTheirPatches) {
     const Case c = read_case(file);
     Surface s;
     ASSERT_NO_THROW(s = load_surface(c));
-    EXPECT_TRUE(unknown_patches(c, s.patches).empty());
+    EXPECT_TRUE(boundary_problems(c, s).empty());
     EXPECT_GT(s.volume, 0.0);
   }
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <map>
 #include <memory>
 
 #include "cases/generators/generators.hpp"
@@ -28,9 +29,14 @@ double median(std::vector<double> v) {
   return v[v.size() / 2];
 }
 
+const std::map<std::string, lbm::Law> laws{{"rr3", lbm::Law::rr3},
+                                           {"bgk", lbm::Law::bgk},
+                                           {"trt", lbm::Law::trt},
+                                           {"central-moments", lbm::Law::central_moments}};
+
 lbm::AirOptions options_of(const KernelSetting& s) {
   lbm::AirOptions options;
-  options.law = s.collision == "bgk" ? lbm::Law::bgk : lbm::Law::rr3;
+  options.law = laws.at(s.collision);
   options.wall = s.wall == "halfway" ? lbm::WallScheme::halfway : lbm::WallScheme::bouzidi;
   options.double_precision = s.precision == "double";
   return options;
@@ -137,7 +143,7 @@ std::vector<KernelRow> kernel_benchmark(bool quick, std::vector<double> sizes,
   for (const double cells : sizes)
     for (const int t : threads) {
       for (const char* scene : {"box", "l-bend"})
-        for (const char* collision : {"rr3", "bgk"})
+        for (const char* collision : {"rr3", "bgk", "trt", "central-moments"})
           for (const char* precision : {"float", "double"}) {
             if (quick && (std::string(precision) == "double" || std::string(collision) != "rr3")) continue;
             add({scene, cells, t, collision, precision, "bouzidi"});

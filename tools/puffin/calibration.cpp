@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "cases/build.hpp"
 #include "cases/generators/generators.hpp"
 #include "lbm/air.hpp"
 
@@ -47,7 +48,7 @@ Calibration calibrate(const cases::Numerics& n) {
     surface.boundaries.push_back(face);
   }
   lbm::AirOptions options;
-  options.law = n.collision == cases::Collision::bgk ? lbm::Law::bgk : lbm::Law::rr3;
+  options.law = cases::law_of(n.collision);
   options.double_precision = n.precision == cases::Precision::float64;
   options.smagorinsky = n.les == cases::Les::none ? 0.0 : n.smagorinsky_constant;
   lbm::Air air = lbm::make_air(full_box(edge), surface, options);

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "cases/check_boundaries.hpp"
 #include "cases/micromodel_file.hpp"
 #include "cases/write_case.hpp"
 #include "tools/puffin/arguments.hpp"
@@ -18,10 +19,8 @@ int check_case(const CaseArguments& a) {
   const cases::Case c = a.read();
   if (c.fines && !c.fines->micromodels.empty()) cases::read_micromodels(c.fines->micromodels);
   const cases::Surface surface = cases::load_surface(c, true);
-  if (auto problems = cases::unknown_patches(c, surface.patches); !problems.empty()) {
-    for (cases::Problem& p : problems) p.file = a.file.string();
+  if (auto problems = cases::boundary_problems(c, surface); !problems.empty())
     throw cases::CaseError(std::move(problems));
-  }
   cases::Assessment assessment = cases::assess(c, surface);
   for (const lbm::geometry::Defect& d : surface.defects) assessment.warnings.push_back(d.kind + ": " + d.message);
   const std::vector<std::string> assumed = cases::assumptions(c);

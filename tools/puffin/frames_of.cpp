@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/puffin/sampling.hpp"
+
 namespace puffin::tools {
 
 namespace {
@@ -62,14 +64,9 @@ output::FieldFrame field_frame(const cases::Simulation& s, const cases::FieldOut
               ((run.y - block.low[1]) + static_cast<std::size_t>(frame.size[1]) * (run.z - block.low[2]));
       frame.fluid[at] = 1;
       if (wanted.velocity || wanted.pressure) {
-        const auto m = lbm::moments_at(air, slot);
-        const double speed = s.state.scale.speed();
-        if (wanted.velocity) {
-          frame.velocity[3 * at] = static_cast<float>(speed * m.ux);
-          frame.velocity[3 * at + 1] = static_cast<float>(speed * m.uy);
-          frame.velocity[3 * at + 2] = static_cast<float>(speed * m.uz);
-        }
-        if (wanted.pressure) frame.pressure[at] = static_cast<float>(s.state.scale.pressure(m.density_excess));
+        const PointReading r = read_cell(s, slot);
+        for (int d = 0; d < 3 && wanted.velocity; ++d) frame.velocity[3 * at + d] = static_cast<float>(r.velocity[d]);
+        if (wanted.pressure) frame.pressure[at] = static_cast<float>(r.pressure);
       }
       for (std::size_t k = 0; k < frame.fines.size(); ++k) {
         double sum = 0.0;

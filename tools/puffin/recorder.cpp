@@ -36,7 +36,8 @@ output::HistoryRow history_row(const cases::Simulation& s, const DropReader& dro
   return row;
 }
 
-Recorder::Recorder(const cases::Simulation& s, const output::OutputFolder& folder) : folder_(folder), drops_(s) {
+Recorder::Recorder(const cases::Simulation& s, const output::OutputFolder& folder)
+    : folder_(folder), drops_(s), points_(s) {
   const cases::Output& out = s.description.output;
   const auto table = [&](const char* name, const std::vector<std::string>& columns) {
     return std::make_unique<output::CsvFile>(folder.file(name), columns);
@@ -131,30 +132,35 @@ void Recorder::record_statistics(const cases::Simulation& s) {
   const cases::Output& out = s.description.output;
   const double t = s.state.time;
   for (const auto& probe : out.probes)
-    if (const auto r = read_point(s, probe.at))
+    if (const auto r = points_.read(s, probe.at))
       output::append(*probes_csv_,
                      output::ProbeRow{t, probe.name, r->velocity[0], r->velocity[1], r->velocity[2], r->pressure});
   for (const auto& plane : out.planes) {
-    const PlaneReading r = read_plane(s, plane.axis, plane.at);
-    output::append(*planes_csv_, output::PlaneRow{t, plane.name, r.flow_rate, r.static_pressure, r.total_pressure});
+    const auto r = read_plane(s, plane.axis, plane.at);
+    if (r)
+      output::append(*planes_csv_,
+                     output::PlaneRow{t, plane.name, r->flow_rate, r->static_pressure, r->total_pressure});
   }
   for (const auto& patch : out.forces) {
-    const auto f = lbm::force_on_patch(*s.state.air, s.surface.patches.find(patch));
-    const double unit = s.state.scale.force();
-    output::append(*forces_csv_, output::ForceRow{t, patch, {f[0] * unit, f[1] * unit, f[2] * unit}});
+    const Vec3 f = read_force(s, patch);
+    output::append(*forces_csv_, output::ForceRow{t, patch, {f[0], f[1], f[2]}});
   }
-  for (std::size_t k = 0; k < out.lines.size(); ++k) {
-    if (t < out.lines[k].average_from) continue;
-    auto& sums = lines_[k];
-    sums.sum.resize(out.lines[k].points);
-    ++sums.samples;
-    for (int n = 0; n < out.lines[k].points; ++n) {
-      const double share = out.lines[k].points > 1 ? static_cast<double>(n) / (out.lines[k].points - 1) : 0.0;
-      const auto r = read_point(s, out.lines[k].from + share * (out.lines[k].to - out.lines[k].from));
-      if (!r) continue;
-      sums.sum[n].velocity += r->velocity;
-      sums.sum[n].pressure += r->pressure;
-    }
+  for (std::size_t k = 0; k < out.lines.size(); ++k)
+    if (t >= out.lines[k].average_from * (1.0 - 1e-9)) sample_line(s, k);
+}
+
+void Recorder::sample_line(const cases::Simulation& s, std::size_t k) {
+  const cases::Line& line = s.description.output.lines[k];
+  LineSums& sums = lines_[k];
+  sums.sum.resize(line.points);
+  sums.inside.resize(line.points, 0);
+  ++sums.samples;
+  for (int n = 0; n < line.points; ++n) {
+    const auto r = points_.read(s, place_on(line, n));
+    if (!r) continue;
+    ++sums.inside[n];
+    sums.sum[n].velocity += r->velocity;
+    sums.sum[n].pressure += r->pressure;
   }
 }
 
@@ -179,13 +185,12 @@ void Recorder::write_lines(const cases::Simulation& s) {
   if (lines.empty()) return;
   output::CsvFile csv(folder_.file("lines.csv"), output::line_columns());
   for (std::size_t k = 0; k < lines.size(); ++k)
-    for (std::size_t n = 0; n < lines_[k].sum.size(); ++n) {
-      const double share = lines[k].points > 1 ? static_cast<double>(n) / (lines[k].points - 1) : 0.0;
-      const Vec3 x = lines[k].from + share * (lines[k].to - lines[k].from);
-      const double samples = static_cast<double>(lines_[k].samples);
+    for (int n = 0; n < static_cast<int>(lines_[k].sum.size()); ++n) {
+      const Vec3 x = place_on(lines[k], n);
+      const double samples = static_cast<double>(lines_[k].inside[n]);  // 0: outside the fluid, 0/0 is written as nan
       const Vec3 u = lines_[k].sum[n].velocity / samples;
       output::append(csv, output::LineRow{lines[k].name, (x - lines[k].from).norm(), x[0], x[1], x[2], u[0], u[1], u[2],
-                                          lines_[k].sum[n].pressure / samples, lines_[k].samples});
+                                          lines_[k].sum[n].pressure / samples, lines_[k].inside[n]});
     }
   csv.flush();
 }
@@ -200,6 +205,8 @@ void Recorder::finish(const cases::Simulation& s) {
     record_carriers(s);
   for (std::size_t k = 0; k < fields_.size(); ++k)
     if (fields_vtk_ && fields_[k].next - fields_[k].interval < s.state.time * (1.0 - 1e-9)) record_fields(s, k);
+  for (std::size_t k = 0; k < lines_.size(); ++k)
+    if (s.state.air && lines_[k].samples == 0) sample_line(s, k);  // stopped before its average began
   write_lines(s);
   write_walls(s);
   for (auto* csv : {&history_csv_, &probes_csv_, &planes_csv_, &forces_csv_, &tracks_csv_})

@@ -47,6 +47,7 @@ class Recorder {
 
  private:
   void record_statistics(const cases::Simulation& s);
+  void sample_line(const cases::Simulation& s, std::size_t k);
   void record_carriers(const cases::Simulation& s);
   void record_fields(const cases::Simulation& s, std::size_t which);
   void write_lines(const cases::Simulation& s);
@@ -54,10 +55,12 @@ class Recorder {
 
   struct LineSums {
     std::vector<PointReading> sum;
+    std::vector<std::int64_t> inside;  // per point: samples in the fluid
     std::int64_t samples = 0;
   };
   const output::OutputFolder& folder_;
   DropReader drops_;
+  PointReader points_;
   Interval statistics_, carriers_;
   std::vector<Interval> fields_;
   std::vector<output::HistoryRow> history_;

@@ -17,6 +17,7 @@
 #include "tools/output/report.hpp"
 #include "tools/puffin/console.hpp"
 #include "tools/puffin/exit_codes.hpp"
+#include "tools/puffin/stored_field.hpp"
 #include "tools/puffin/summarize.hpp"
 
 namespace puffin::tools {
@@ -128,8 +129,9 @@ int run_command(const RunOptions& options) {
   const int threads = wanted > 0 ? wanted : static_cast<int>(std::thread::hardware_concurrency());
   const oneapi::tbb::global_control control(oneapi::tbb::global_control::max_allowed_parallelism,
                                             static_cast<std::size_t>(threads));
-  const auto simulation = cases::build(c);
+  const auto simulation = cases::build(c, read_stored_field);
   cases::Simulation& s = *simulation;
+  PointReader(s).check_places(s);
   const output::OutputFolder folder(options.out.empty() ? std::nullopt : std::optional(options.out), c.name);
   folder.write_text("case.toml", cases::write_resolved(c));
   if (!options.quiet && s.state.air)

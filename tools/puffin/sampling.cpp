@@ -10,48 +10,20 @@ namespace {
 
 using coupling::Vec3;
 
-PointReading read_cell(const cases::Simulation& s, std::ptrdiff_t slot) {
-  const auto m = lbm::moments_at(*s.state.air, slot);
-  PointReading reading;
-  reading.velocity = s.state.scale.speed() * Vec3(m.ux, m.uy, m.uz);
-  reading.pressure = s.state.scale.pressure(m.density_excess);
-  return reading;
-}
-
 double total_pressure(const cases::Simulation& s, const PointReading& r) {
   return r.pressure + 0.5 * s.models.air.density * r.velocity.squaredNorm();
 }
 
 }  // namespace
 
-std::optional<PointReading> read_point(const cases::Simulation& s, const Vec3& x) {
-  if (!s.state.air) return std::nullopt;
-  const auto& rows = s.state.air->rows;
-  const Vec3 at = (x - rows.origin()) / rows.dx();
-  const int base[3] = {static_cast<int>(std::floor(at[0])), static_cast<int>(std::floor(at[1])),
-                       static_cast<int>(std::floor(at[2]))};
-  PointReading sum;
-  double weight = 0.0;
-  for (int n = 0; n < 8; ++n) {
-    double w = 1.0;
-    int c[3];
-    for (int d = 0; d < 3; ++d) {
-      const int high = n >> d & 1;
-      const double part = at[d] - base[d];
-      c[d] = base[d] + high;
-      w *= high ? part : 1.0 - part;
-    }
-    const std::ptrdiff_t slot = rows.active_slot(c[0], c[1], c[2]);
-    if (slot < 0 || w <= 0.0) continue;
-    const PointReading r = read_cell(s, slot);
-    sum.velocity += w * r.velocity;
-    sum.pressure += w * r.pressure;
-    weight += w;
-  }
-  if (weight < 1e-6) return std::nullopt;
-  sum.velocity /= weight;
-  sum.pressure /= weight;
-  return sum;
+PointReading read_cell(const cases::Simulation& s, std::ptrdiff_t slot) {
+  const auto m = lbm::moments_at(*s.state.air, slot);
+  PointReading reading;
+  reading.velocity = s.state.scale.speed() * Vec3(m.ux, m.uy, m.uz);
+  if (s.models.body_force)
+    reading.velocity += 0.5 * s.state.scale.dt / s.models.air.density * s.models.body_force(s.state.time);
+  reading.pressure = s.state.scale.pressure(m.density_excess);
+  return reading;
 }
 
 DropReader::DropReader(const cases::Simulation& s) {
@@ -94,31 +66,74 @@ DropReading DropReader::read(const cases::Simulation& s) const {
   return reading;
 }
 
-PlaneReading read_plane(const cases::Simulation& s, int axis, double at) {
-  const auto& rows = s.state.air->rows;
-  const int layer = static_cast<int>(std::lround((at - rows.origin()[axis]) / rows.dx()));
-  PlaneReading reading;
-  double flux = 0.0, carried = 0.0;
+namespace {
+
+struct Layer {
+  double flow = 0.0, pressure = 0.0, carried = 0.0, flux = 0.0;
   std::size_t cells = 0;
+};
+
+Layer read_layer(const cases::Simulation& s, int axis, int index) {
+  const auto& rows = s.state.air->rows;
+  Layer layer;
   for (const auto& run : rows.runs())
     for (int n = 0; n < run.count; ++n) {
       const int c[3] = {run.x + n, run.y, run.z};
-      if (c[axis] != layer) {
+      if (c[axis] != index) {
         if (axis != 0) break;
         continue;
       }
       const PointReading r = read_cell(s, run.first + n);
-      const double u = r.velocity[axis];
-      reading.flow_rate += u * rows.dx() * rows.dx();
-      reading.static_pressure += r.pressure;
-      flux += u;
-      carried += u * total_pressure(s, r);
-      ++cells;
+      const double u = r.velocity[axis], density = 1.0 + s.state.scale.density_excess_lu(r.pressure);
+      layer.flow += density * u * rows.dx() * rows.dx();
+      layer.pressure += r.pressure;
+      layer.flux += u;
+      layer.carried += u * total_pressure(s, r);
+      ++layer.cells;
     }
-  if (cells == 0) throw std::invalid_argument("the plane at " + std::to_string(at) + " m lies outside the fluid");
-  reading.static_pressure /= static_cast<double>(cells);
-  reading.total_pressure = flux != 0.0 ? carried / flux : reading.static_pressure;
-  return reading;
+  return layer;
+}
+
+PlaneReading reading_of(const Layer& layer) {
+  PlaneReading r;
+  r.flow_rate = layer.flow;
+  r.static_pressure = layer.pressure / static_cast<double>(layer.cells);
+  r.total_pressure = layer.flux != 0.0 ? layer.carried / layer.flux : r.static_pressure;
+  return r;
+}
+
+}  // namespace
+
+std::optional<PlaneReading> read_plane(const cases::Simulation& s, int axis, double at) {
+  const auto& rows = s.state.air->rows;
+  const double place = (at - rows.origin()[axis]) / rows.dx();
+  if (place < -0.5 - 1e-6 || place > rows.box()[axis] - 0.5 + 1e-6) return std::nullopt;
+  const int below = static_cast<int>(std::floor(place));
+  const double part = place - below;
+  const Layer low = read_layer(s, axis, below), high = read_layer(s, axis, below + 1);
+  if (low.cells == 0 && high.cells == 0) return std::nullopt;
+  if (low.cells != high.cells) {
+    const bool upper = low.cells == 0 || (high.cells > 0 && part >= 0.5);
+    return reading_of(upper ? high : low);
+  }
+  const PlaneReading a = reading_of(low), b = reading_of(high);
+  PlaneReading r;
+  r.flow_rate = (1.0 - part) * a.flow_rate + part * b.flow_rate;
+  r.static_pressure = (1.0 - part) * a.static_pressure + part * b.static_pressure;
+  r.total_pressure = (1.0 - part) * a.total_pressure + part * b.total_pressure;
+  return r;
+}
+
+Vec3 read_force(const cases::Simulation& s, const std::string& patch) {
+  const lbm::Air& air = *s.state.air;
+  Vec3 sum = Vec3::Zero();
+  const int one = s.surface.patches.find(patch);
+  for (int b = 0; b < static_cast<int>(air.boundaries.size()); ++b) {
+    if (one >= 0 ? b != one : air.boundaries[b].kind != lbm::BoundaryKind::wall) continue;
+    const auto f = lbm::force_on_patch(air, b);
+    sum += s.state.scale.force() * Vec3(f[0], f[1], f[2]);
+  }
+  return sum;
 }
 
 }  // namespace puffin::tools

@@ -1,7 +1,9 @@
 #pragma once
 // Readings of the air during a run: pressure drops, points, planes. SI units.
 
+#include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "cases/build.hpp"
@@ -13,9 +15,37 @@ struct PointReading {
   double pressure = 0.0;                             // [Pa]
 };
 
-/// Trilinear between the cell centres around a point; cells outside the fluid are left out and the rest weighted to 1.
-/// Empty: no cell of the fluid beside the point.
-std::optional<PointReading> read_point(const cases::Simulation& s, const coupling::Vec3& x);
+/// Velocity and pressure of one active cell, in the middle of a step: half of the uniform body force included.
+PointReading read_cell(const cases::Simulation& s, std::ptrdiff_t slot);
+
+/// Reads the air at points: trilinear between cell centres; across a periodic face from the other side. Where some of
+/// the eight cells around a point are not fluid and a wall is nearer than a cell, the velocity follows the parabola
+/// through the wall's own velocity and the readings one and two cells further along the wall's normal (linear where the
+/// second is missing): second order up to the wall. Elsewhere the cells outside the fluid are left out and the rest
+/// weighted to 1; so is the pressure, whose slope across a wall is small.
+class PointReader {
+ public:
+  PointReader() = default;
+  explicit PointReader(const cases::Simulation& s);
+  /// Empty: the point lies outside the fluid.
+  std::optional<PointReading> read(const cases::Simulation& s, const coupling::Vec3& x) const;
+  /// Throws cases::CaseError, at its place in the file, for each probe, line, plane, slice or box of the case that
+  /// meets no fluid.
+  void check_places(const cases::Simulation& s) const;
+
+ private:
+  struct Mean {
+    PointReading reading;
+    double weight = 0.0;  // of the fluid among the eight cells
+  };
+  Mean mean_of_cells(const cases::Simulation& s, const coupling::Vec3& x) const;
+
+  std::shared_ptr<const lbm::geometry::TriangleTree> walls_;  // the air sticks to these; empty: none
+  std::vector<int> patch_;                                    // per triangle of walls_
+};
+
+/// Place of the n-th point of a line [m].
+coupling::Vec3 place_on(const cases::Line& line, int n);
 
 struct DropReading {
   double flow_rate = 0.0;             // into the device [m^3/s]
@@ -39,12 +69,17 @@ class DropReader {
 };
 
 struct PlaneReading {
-  double flow_rate = 0.0;        // along the normal [m^3/s]
+  double flow_rate = 0.0;        // mass flow along the normal over the reference density [m^3/s]
   double static_pressure = 0.0;  // area mean [Pa]
   double total_pressure = 0.0;   // flux-weighted mean of p + rho u^2/2 [Pa]
 };
 
-/// Over the layer of cells that the plane passes through. Throws std::invalid_argument if there is none.
-PlaneReading read_plane(const cases::Simulation& s, int axis, double at);
+/// Over the cells that the plane passes through: between the two layers of cells around it where they have as many
+/// cells, else the nearer. The lattice keeps mass, so in steady flow every plane across a channel reads one flow rate.
+/// Empty: the plane meets no fluid.
+std::optional<PlaneReading> read_plane(const cases::Simulation& s, int axis, double at);
+
+/// Force of the air on a patch [N]; "wall" means all walls if no patch is called so.
+coupling::Vec3 read_force(const cases::Simulation& s, const std::string& patch);
 
 }  // namespace puffin::tools

@@ -218,9 +218,8 @@ output::Summary summarize(const cases::Simulation& s, const Recorder& recorder, 
     r.mach_max = std::sqrt(3.0) * s.state.extremes.max_speed_lu;
     if (recorder.drops().has_both()) r.pressure = pressures(s, recorder.history());
     for (const auto& patch : s.description.output.forces) {
-      const auto f = lbm::force_on_patch(air, s.surface.patches.find(patch));
-      const double unit = s.state.scale.force();
-      r.forces.push_back({patch, f[0] * unit, f[1] * unit, f[2] * unit});
+      const auto f = read_force(s, patch);
+      r.forces.push_back({patch, f[0], f[1], f[2]});
     }
   } else {
     r.steps = s.state.carriers.statistics.steps;

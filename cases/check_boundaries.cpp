@@ -1,0 +1,152 @@
+#include "cases/check_boundaries.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cases/opening.hpp"
+#include "cases/spelling.hpp"
+#include "cases/units.hpp"
+
+namespace puffin::cases {
+
+namespace {
+
+class Checks {
+ public:
+  Checks(const Case& c, const Surface& surface) : c_(c), surface_(surface) {
+    for (const Vec3& v : surface.mesh.vertices) {
+      low_ = low_.cwiseMin(v);
+      high_ = high_.cwiseMax(v);
+    }
+  }
+
+  std::vector<Problem> all() {
+    for (std::size_t i = 0; i < c_.air.boundaries.size(); ++i) {
+      const Boundary& b = c_.air.boundaries[i];
+      const std::string key = "air.boundary[" + std::to_string(i) + "]";
+      const bool known = need(key + ".patch", b.patch), partner = b.with.empty() || need(key + ".with", b.with);
+      if (!known || !partner) continue;
+      if (b.type == BoundaryType::periodic) periodic(key, b);
+      if (b.type == BoundaryType::velocity_inlet) inlet(key, b);
+      if (b.type == BoundaryType::slip) slip(key, b);
+    }
+    if (c_.carriers && c_.carriers->fill)
+      if (const auto* patch = std::get_if<std::string>(&c_.carriers->fill->at)) need("carriers.fill.at", *patch);
+    for (const std::string& patch : c_.output.forces)
+      if (patch != "wall") need("output.force", patch);
+    if (c_.fines)
+      for (std::size_t i = 0; i < c_.fines->boundaries.size(); ++i)
+        need("fines.boundary[" + std::to_string(i) + "].patch", c_.fines->boundaries[i].patch);
+    return std::move(problems_);
+  }
+
+ private:
+  void say(const std::string& key, const std::string& text) {
+    problems_.push_back(problem_at(c_, key, key + ": " + text));
+  }
+
+  bool need(const std::string& key, const std::string& name) {
+    const auto& patches = surface_.patches;
+    if (name.empty()) return false;
+    if (patches.find(name) >= 0) {
+      if (surface_.area_of(name) > 0.0) return true;
+      say(key, "the patch '" + name + "' has no surface left: every triangle of it bears another patch's name");
+      return false;
+    }
+    const std::string near = nearest(name, patches.names);
+    say(key, "there is no patch '" + name + "'; " +
+                 (near.empty() ? "the patches are " + join(patches.names) : "did you mean '" + near + "'?"));
+    return false;
+  }
+
+  struct Face {
+    Vec3 normal = Vec3::Zero(), centroid = Vec3::Zero();
+    double area = 0.0, flatness = 0.0;  // |sum of area vectors| / area
+  };
+  Face face_of(const std::string& name) const {
+    Face face;
+    const int patch = surface_.patches.find(name);
+    for (int t = 0; t < static_cast<int>(surface_.mesh.triangles.size()); ++t) {
+      if (surface_.patches.of_triangle[t] != patch) continue;
+      const auto& mesh = surface_.mesh;
+      face.area += mesh.area(t);
+      face.normal += 0.5 * mesh.area_vector(t);
+      face.centroid += mesh.area(t) / 3.0 * (mesh.corner(t, 0) + mesh.corner(t, 1) + mesh.corner(t, 2));
+    }
+    face.flatness = face.normal.norm() / face.area;
+    face.centroid /= face.area;
+    if (face.flatness > 0.0) face.normal.normalize();
+    return face;
+  }
+
+  void periodic(const std::string& key, const Boundary& b) {
+    const Face one = face_of(b.patch), two = face_of(b.with);
+    int axis = 0;
+    one.normal.cwiseAbs().maxCoeff(&axis);
+    const auto is_end = [&](const Face& f) {
+      const double end = f.normal[axis] < 0.0 ? low_[axis] : high_[axis];
+      return f.flatness > 1.0 - 1e-6 && std::abs(f.normal[axis]) > 1.0 - 1e-6 &&
+             std::abs(f.centroid[axis] - end) < 1e-5 * (high_ - low_).norm();
+    };
+    for (const auto& [name, face] : {std::pair(b.patch, one), std::pair(b.with, two)})
+      if (!is_end(face)) {
+        say(key + ".with", "the patch '" + name + "' is not a flat end of the box along " + "xyz"[axis] +
+                               "; periodic faces are the two ends of the geometry along an axis");
+        return;
+      }
+    Vec3 shift = two.centroid - one.centroid;
+    shift[axis] = 0.0;
+    if (one.normal.dot(two.normal) > 0.0) {
+      say(key + ".with", "'" + b.patch + "' and '" + b.with + "' lie on the same side; name the opposite one");
+    } else if (std::abs(one.area - two.area) > 1e-5 * one.area || shift.norm() > 1e-5 * (high_ - low_).norm()) {
+      say(key + ".with", "'" + b.patch + "' (" + format_quantity(one.area * 1e6, unit::number) + " mm^2) and '" +
+                             b.with + "' (" + format_quantity(two.area * 1e6, unit::number) +
+                             " mm^2) do not cover each other: what leaves through one must find the other");
+    }
+  }
+
+  void inlet(const std::string& key, const Boundary& b) {
+    const auto* v = std::get_if<Velocity>(&b.flow);
+    if (v == nullptr) return;
+    const Face face = face_of(b.patch);
+    if (v->value.dot(face.normal) > -1e-3 * v->value.norm())
+      say(key + ".velocity", "the vector does not point into the fluid; the inward normal of '" + b.patch + "' is [" +
+                                 format_quantity(-face.normal[0], unit::number) + ", " +
+                                 format_quantity(-face.normal[1], unit::number) + ", " +
+                                 format_quantity(-face.normal[2], unit::number) + "]");
+  }
+
+  /// Reflection along the grid is exact only on planes of the grid: refuse the rest instead of adding friction.
+  void slip(const std::string& key, const Boundary& b) {
+    const int patch = surface_.patches.find(b.patch);
+    for (int t = 0; t < static_cast<int>(surface_.mesh.triangles.size()); ++t) {
+      if (surface_.patches.of_triangle[t] != patch) continue;
+      const Vec3 n = surface_.mesh.area_vector(t).normalized();
+      if (n.cwiseAbs().maxCoeff() > 1.0 - 1e-6) continue;
+      say(key + ".type",
+          "slip walls must lie along x, y or z; '" + b.patch + "' does not: turn the geometry, or make it a wall");
+      return;
+    }
+  }
+
+  const Case& c_;
+  const Surface& surface_;
+  Vec3 low_ = Vec3::Constant(1e300), high_ = Vec3::Constant(-1e300);
+  std::vector<Problem> problems_;
+};
+
+}  // namespace
+
+Problem problem_at(const Case& c, const std::string& key, const std::string& text) {
+  for (std::string k = key;;) {
+    if (const auto found = c.places.of.find(k); found != c.places.of.end())
+      return {found->second.file, found->second.line, found->second.column, key, text};
+    const std::size_t cut = k.find_last_of(".[");
+    if (cut == std::string::npos) return {c.name, 0, 0, key, text};
+    k.resize(cut);
+  }
+}
+
+std::vector<Problem> boundary_problems(const Case& c, const Surface& surface) { return Checks(c, surface).all(); }
+
+}  // namespace puffin::cases

@@ -1,0 +1,67 @@
+#include "cases/initial_air.hpp"
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+#include "cases/point_field.hpp"
+
+namespace puffin::cases {
+
+namespace {
+
+double no_pressure(const Vec3&) { return 0.0; }
+
+InitialAir taylor_green_3d(double rho, double u, const Vec3& corner, const Vec3& k) {
+  return {[=](const Vec3& at) -> Vec3 {
+            const Vec3 x = k.cwiseProduct(at - corner);
+            return {u * std::sin(x[0]) * std::cos(x[1]) * std::cos(x[2]),
+                    -u * std::cos(x[0]) * std::sin(x[1]) * std::cos(x[2]), 0.0};
+          },
+          [=](const Vec3& at) {
+            const Vec3 x = 2.0 * k.cwiseProduct(at - corner);
+            return rho * u * u / 16.0 * (std::cos(x[0]) + std::cos(x[1])) * (std::cos(x[2]) + 2.0);
+          }};
+}
+
+InitialAir taylor_green_2d(double rho, double u, const Vec3& corner, const Vec3& k) {
+  return {[=](const Vec3& at) -> Vec3 {
+            const Vec3 x = k.cwiseProduct(at - corner);
+            return {-u * std::cos(x[0]) * std::sin(x[1]), u * k[0] / k[1] * std::sin(x[0]) * std::cos(x[1]), 0.0};
+          },
+          [=](const Vec3& at) {
+            const Vec3 x = 2.0 * k.cwiseProduct(at - corner);
+            return -0.25 * rho * u * u * (std::cos(x[0]) + std::cos(x[1]));
+          }};
+}
+
+}  // namespace
+
+std::optional<InitialAir> initial_air(const Air& air, const Vec3& corner, const Vec3& box) {
+  const double u = air.initial_velocity.norm();
+  const Vec3 k = 2.0 * std::numbers::pi * box.cwiseInverse();
+  switch (air.initial) {
+    case InitialField::taylor_green: {
+      const bool cube = box.maxCoeff() - box.minCoeff() <= 0.01 * box.maxCoeff();
+      return cube ? taylor_green_3d(air.density, u, corner, k) : taylor_green_2d(air.density, u, corner, k);
+    }
+    case InitialField::shear_layer:
+      return InitialAir{[=](const Vec3& at) -> Vec3 {
+                          const Vec3 x = (at - corner).cwiseQuotient(box);
+                          const double y = x[1];
+                          return {u * (y < 0.5 ? std::tanh(80.0 * (y - 0.25)) : std::tanh(80.0 * (0.75 - y))),
+                                  0.05 * u * std::sin(2.0 * std::numbers::pi * (x[0] + 0.25)), 0.0};
+                        },
+                        no_pressure};
+    case InitialField::file: {
+      const auto field = std::make_shared<const PointField>(read_point_field(air.initial_file));
+      return InitialAir{[field](const Vec3& x) { return field->at(x); }, no_pressure};
+    }
+    case InitialField::uniform:
+      break;
+  }
+  if (u == 0.0) return std::nullopt;
+  return InitialAir{[v = air.initial_velocity](const Vec3&) { return v; }, no_pressure};
+}
+
+}  // namespace puffin::cases

@@ -1,0 +1,76 @@
+// Boundaries that contradict each other or the geometry: every one named, at its place in the file.
+
+#include <gtest/gtest.h>
+
+#include "cases/check_boundaries.hpp"
+#include "tests/cases/sample_case.hpp"
+
+namespace puffin::cases::test {
+namespace {
+
+std::string scene(const std::string& geometry, const std::string& boundaries) {
+  return "schema = 1\nname = \"scene\"\n[geometry]\n" + geometry + "\n" + boundaries +
+         "[numerics]\ndx = \"1 mm\"\nreference_speed = \"1 m/s\"\n[stop]\ntime = \"1 ms\"\n";
+}
+std::string boundary(const std::string& patch, const std::string& rest) {
+  return "[[air.boundary]]\npatch = \"" + patch + "\"\n" + rest + "\n";
+}
+const std::string box = "generator = \"box\"", duct = "generator = \"duct\"";
+
+/// What the file alone shows, or else what the geometry shows.
+std::string first_problem(const std::string& text) {
+  if (const auto lines = problems_of(text); !lines.empty()) return lines.front();
+  const Case c = parse(text);
+  const auto found = boundary_problems(c, load_surface(c));
+  return found.empty() ? "" : found.front().to_string();
+}
+
+TEST(Boundaries, AFaceOfTheBoxNeedsNoTag) {
+  const std::string text = scene(duct, boundary("inlet", "type = \"velocity-inlet\"\nvelocity = 1.0") +
+                                           boundary("outlet", "type = \"pressure-outlet\"") +
+                                           boundary("y-min", "type = \"periodic\"\nwith = \"y-max\""));
+  EXPECT_EQ(first_problem(text), "");
+  const Surface s = load_surface(parse(text));
+  EXPECT_NEAR(s.area_of("y-min"), 50e-3 * 3.5e-3, 1e-12);
+  EXPECT_NEAR(s.area_of("y-max"), 50e-3 * 3.5e-3, 1e-12);
+  EXPECT_NEAR(s.area_of("wall"), 2.0 * 50e-3 * 7e-3, 1e-12);
+}
+
+TEST(Boundaries, APeriodicPairMayBeNamedFromEitherSideOrBoth) {
+  const std::string one = boundary("x-min", "type = \"periodic\"\nwith = \"x-max\""),
+                    other = boundary("x-max", "type = \"periodic\"\nwith = \"x-min\"");
+  for (const std::string& pair : {one, other, one + other}) EXPECT_EQ(first_problem(scene(box, pair)), "");
+}
+
+TEST(Boundaries, ContradictionsAreNamedAtTheirPlace) {
+  const auto periodic = [](const std::string& a, const std::string& b) {
+    return boundary(a, "type = \"periodic\"\nwith = \"" + b + "\"");
+  };
+  const std::string inlet = boundary("inlet", "type = \"velocity-inlet\"\nvelocity = 1.0"),
+                    outlet = boundary("outlet", "type = \"pressure-outlet\"");
+  const struct {
+    std::string geometry, boundaries, place, text;
+  } cases[] = {
+      {duct, inlet + inlet + outlet, ":10:", "patch 'inlet' has two boundaries"},
+      {box, periodic("x-min", "x-min"), ":8:", "cannot be periodic with itself"},
+      {box, periodic("x-min", "x-max") + boundary("x-max", "type = \"wall\""), ":8:", "has another boundary already"},
+      {box, periodic("x-min", "x-max") + periodic("y-min", "x-max"), ":8:", "is the partner of 'y-min' already"},
+      {box, periodic("x-min", "y-max"), ":8:", "periodic faces are the two ends"},
+      {"generator = \"step\"", periodic("inlet", "outlet"), ":8:", "do not cover each other"},
+      {"generator = \"bend\"", periodic("inlet", "outlet"), ":8:", "periodic faces are the two ends"},
+      {duct, boundary("inlet", "type = \"velocity-inlet\"") + outlet, ":5:", "needs 'flow_rate' or 'velocity'"},
+      {duct, inlet + boundary("outlet", "type = \"pressure-outlet\"\nprofile = \"duct\""), ":12:", "profile"},
+      {duct, boundary("inlet", "type = \"velocity-inlet\"\nvelocity = [-1.0, 0.0, 0.0]") + outlet,
+       ":8:", "does not point into the fluid"},
+      {"generator = \"pipe\"", boundary("wall", "type = \"slip\""), ":7:", "must lie along x, y or z"},
+      {duct, inlet + outlet + boundary("wal", "type = \"wall\""), ":13:", "did you mean 'wall'?"},
+  };
+  for (const auto& c : cases) {
+    const std::string found = first_problem(scene(c.geometry, c.boundaries));
+    EXPECT_NE(found.find(c.place), std::string::npos) << c.text << "\n" << found;
+    EXPECT_NE(found.find(c.text), std::string::npos) << c.text << "\n" << found;
+  }
+}
+
+}  // namespace
+}  // namespace puffin::cases::test

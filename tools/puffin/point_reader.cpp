@@ -1,0 +1,137 @@
+// Readings of the air between the cell centres.
+
+#include <algorithm>
+#include <cmath>
+
+#include "cases/check_boundaries.hpp"
+#include "cases/units.hpp"
+#include "tools/puffin/sampling.hpp"
+
+namespace puffin::tools {
+
+using coupling::Vec3;
+
+PointReader::PointReader(const cases::Simulation& s) {
+  if (!s.state.air) return;
+  const auto& mesh = s.surface.mesh;
+  auto walls = std::make_shared<lbm::geometry::TriangleMesh>();
+  walls->vertices = mesh.vertices;
+  walls->solids = mesh.solids;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const int patch = s.surface.patches.of_triangle[t];
+    if (s.state.air->boundaries[patch].kind != lbm::BoundaryKind::wall) continue;
+    walls->triangles.push_back(mesh.triangles[t]);
+    walls->solid.push_back(0);
+    patch_.push_back(patch);
+  }
+  if (!walls->triangles.empty()) walls_ = std::make_shared<const lbm::geometry::TriangleTree>(walls);
+}
+
+PointReader::Mean PointReader::mean_of_cells(const cases::Simulation& s, const Vec3& x) const {
+  const auto& rows = s.state.air->rows;
+  const Vec3 at = (x - rows.origin()) / rows.dx();
+  const int base[3] = {static_cast<int>(std::floor(at[0])), static_cast<int>(std::floor(at[1])),
+                       static_cast<int>(std::floor(at[2]))};
+  Mean mean;
+  for (int n = 0; n < 8; ++n) {
+    double w = 1.0;
+    int c[3];
+    for (int d = 0; d < 3; ++d) {
+      const int high = n >> d & 1;
+      const double part = at[d] - base[d];
+      c[d] = base[d] + high;
+      w *= high ? part : 1.0 - part;
+    }
+    if (w <= 1e-9) continue;
+    const std::ptrdiff_t slot = rows.active_slot(c[0], c[1], c[2]);
+    if (slot < 0) continue;
+    const PointReading r = read_cell(s, slot);
+    mean.reading.velocity += w * r.velocity;
+    mean.reading.pressure += w * r.pressure;
+    mean.weight += w;
+  }
+  if (mean.weight > 0.0) {
+    mean.reading.velocity /= mean.weight;
+    mean.reading.pressure /= mean.weight;
+  }
+  return mean;
+}
+
+std::optional<PointReading> PointReader::read(const cases::Simulation& s, const Vec3& x) const {
+  if (!s.state.air) return std::nullopt;
+  constexpr double whole = 1.0 - 1e-6;
+  const double dx = s.state.air->rows.dx();
+  Mean mean = mean_of_cells(s, x);
+  if (mean.weight >= whole) return mean.reading;
+  const auto near = walls_ ? walls_->closest(x, dx) : lbm::geometry::Closest{};
+  if (near.triangle < 0) {
+    if (mean.weight < 1e-6) return std::nullopt;
+    return mean.reading;
+  }
+  const Vec3 inward = -walls_->mesh().area_vector(near.triangle).normalized();
+  const double distance = inward.dot(x - near.point);
+  if (distance < -1e-3 * dx) return std::nullopt;  // behind the wall
+  const int patch = patch_[near.triangle];
+  const auto& boundary = s.state.air->boundaries[patch];
+  Vec3 wall = Vec3::Zero();
+  if (boundary.profile && s.models.patches[patch].speed)
+    wall = s.models.patches[patch].speed(s.state.time) * boundary.profile(near.point);
+  const Mean one = mean_of_cells(s, near.point + dx * inward), two = mean_of_cells(s, near.point + 2.0 * dx * inward);
+  const double a = std::max(0.0, distance) / dx;
+  if (one.weight < 0.5) {
+    if (mean.weight < 1e-6) return std::nullopt;
+    return mean.reading;
+  }
+  PointReading reading;
+  reading.pressure = mean.weight > 1e-6 ? mean.reading.pressure : one.reading.pressure;
+  const Vec3 first = one.reading.velocity - wall, second = two.reading.velocity - wall;
+  if (one.weight >= whole && two.weight >= whole)
+    reading.velocity = wall + a * (2.0 - a) * first + 0.5 * a * (a - 1.0) * second;
+  else
+    reading.velocity = wall + a * first;
+  return reading;
+}
+
+void PointReader::check_places(const cases::Simulation& s) const {
+  if (!s.state.air) return;
+  const cases::Output& out = s.description.output;
+  std::vector<cases::Problem> problems;
+  const auto say = [&](const std::string& key, std::size_t i, const std::string& text) {
+    const std::string at = key + "[" + std::to_string(i) + "]";
+    problems.push_back(cases::problem_at(s.description, at, at + ": " + text));
+  };
+  for (std::size_t i = 0; i < out.probes.size(); ++i)
+    if (!read(s, out.probes[i].at)) say("output.probe", i, "'" + out.probes[i].name + "' lies outside the fluid");
+  for (std::size_t i = 0; i < out.lines.size(); ++i) {
+    bool found = false;
+    for (int n = 0; n < out.lines[i].points && !found; ++n) found = read(s, place_on(out.lines[i], n)).has_value();
+    if (!found) say("output.line", i, "'" + out.lines[i].name + "' meets no fluid");
+  }
+  const auto& rows = s.state.air->rows;
+  const auto outside = [&](int axis, double at) {
+    const double place = (at - rows.origin()[axis]) / rows.dx();
+    return place < -0.5 - 1e-6 || place > rows.box()[axis] - 0.5 + 1e-6;
+  };
+  for (std::size_t i = 0; i < out.planes.size(); ++i)
+    if (!read_plane(s, out.planes[i].axis, out.planes[i].at))
+      say("output.plane", i, "'" + out.planes[i].name + "' meets no fluid");
+  for (std::size_t i = 0; i < out.fields.size(); ++i) {
+    if (const auto* slice = std::get_if<cases::RegionSlice>(&out.fields[i].region); slice)
+      if (outside(slice->axis, slice->at)) say("output.fields", i, "the slice lies outside the geometry");
+    if (const auto* box = std::get_if<cases::RegionBox>(&out.fields[i].region); box)
+      for (int d = 0; d < 3; ++d)
+        if (box->max[d] < rows.origin()[d] - 0.5 * rows.dx() ||
+            box->min[d] > rows.origin()[d] + (rows.box()[d] - 0.5) * rows.dx()) {
+          say("output.fields", i, "the box lies outside the geometry");
+          break;
+        }
+  }
+  if (!problems.empty()) throw cases::CaseError(std::move(problems));
+}
+
+Vec3 place_on(const cases::Line& line, int n) {
+  const double share = line.points > 1 ? static_cast<double>(n) / (line.points - 1) : 0.0;
+  return line.from + share * (line.to - line.from);
+}
+
+}  // namespace puffin::tools
