@@ -7,6 +7,7 @@
 
 #include "tools/bench/kernel_bench.hpp"
 #include "tools/bench/machine.hpp"
+#include "tools/puffin/build_info.hpp"
 #include "tools/puffin/commands.hpp"
 #include "tools/puffin/console.hpp"
 #include "tools/puffin/exit_codes.hpp"
@@ -24,7 +25,7 @@ struct BenchArguments {
 };
 
 json machine_json() {
-  const bench::Machine m = bench::describe_machine(PUFFIN_COMMIT);
+  const bench::Machine m = bench::describe_machine(build_info().commit);
   return {{"processor", m.processor}, {"isa", m.isa}, {"cores", m.cores}, {"commit", m.commit}};
 }
 

@@ -8,6 +8,7 @@
 
 #include "cases/case_error.hpp"
 #include "cases/spelling.hpp"
+#include "tools/puffin/build_info.hpp"
 #include "tools/puffin/commands.hpp"
 #include "tools/puffin/console.hpp"
 #include "tools/puffin/exit_codes.hpp"
@@ -52,7 +53,7 @@ int run(int argc, char** argv) {
   CLI::App app{"Predicts how a dry powder inhaler releases its drug: air, carriers and fines.", "puffin"};
   app.footer(exit_code_help);
   app.require_subcommand(0, 1);
-  app.set_version_flag("--version", PUFFIN_VERSION);
+  app.set_version_flag("--version", build_info().version);
   std::map<const CLI::App*, Action> actions;
   std::vector<std::string> names;
   for (const Command& command : all_commands()) {

@@ -1,4 +1,5 @@
 #include "tools/puffin/summarize.hpp"
+#include "tools/puffin/build_info.hpp"
 
 #include <sys/resource.h>
 
@@ -188,7 +189,7 @@ void add_reference(const cases::Simulation& s, output::Summary& summary) {
 output::Summary summarize(const cases::Simulation& s, const Recorder& recorder, const RunFacts& facts) {
   output::Summary r;
   r.name = s.description.name;
-  r.version = PUFFIN_VERSION " (" PUFFIN_COMMIT ")";
+  r.version = build_info().version + " (" + build_info().commit + ")";
   r.state = facts.state;
   r.message = facts.message;
   r.simulated_time = s.state.time;

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "lbm/kernel.hpp"
+#include "tools/puffin/build_info.hpp"
 #include "tools/puffin/commands.hpp"
 #include "tools/puffin/console.hpp"
 
@@ -15,15 +16,16 @@ Command version() {
             auto json = std::make_shared<bool>(false);
             app.add_flag("--json", *json, "one JSON object on stdout");
             return [json] {
+              const BuildInfo b = build_info();
               if (*json)
                 print(nlohmann::json{{"name", "puffin"},
-                                     {"version", PUFFIN_VERSION},
-                                     {"commit", PUFFIN_COMMIT},
-                                     {"compiler", PUFFIN_COMPILER},
-                                     {"build", PUFFIN_BUILD_TYPE}}
+                                     {"version", b.version},
+                                     {"commit", b.commit},
+                                     {"compiler", b.compiler},
+                                     {"build", b.type}}
                           .dump(2));
               else
-                print("puffin " PUFFIN_VERSION " (" PUFFIN_COMMIT "; " PUFFIN_COMPILER ", " PUFFIN_BUILD_TYPE ")");
+                print("puffin " + b.version + " (" + b.commit + "; " + b.compiler + ", " + b.type + ")");
               return 0;
             };
           }};
