@@ -107,7 +107,7 @@ void give_reaction(double interval, State& s) {
     s.momentum.rounding += booking.rounding;
     s.momentum.exchanged += booking.exchanged;
     s.stencils.mark_runs(s.cells, s.touched);
-    s.spread_on = s.stencils;
+    std::swap(s.spread_on, s.stencils);  // the stencils are built anew for this interval
   } else {
     s.spread_on = Stencils();
   }
@@ -167,16 +167,20 @@ void find_loads(const Models& models, double interval, State& s) {
   }
   s.loads.assign(count, dem::Load{});
   if (!s.air && !models.frozen_air) return;
-  std::vector<double> beta(count, 0.0), solid;
+  std::vector<double> beta(count, 0.0), solid, volume;
+  double largest_fraction = 1.0;
   if (s.air && models.volume_fraction == VolumeFraction::in_drag) {
-    std::vector<double> volume(count);
+    volume.resize(count);
     for (std::size_t p = 0; p < count; ++p)
       volume[p] = c.carriers[p] * 4.1887902047863909846 * std::pow(c.single_radius[p], 3);
     solid.assign(count, 0.0);
-    solid_fraction(s.stencils, volume, s.scale.dx, s.spreader, solid);
+    largest_fraction = solid_fraction(s.stencils, volume, s.scale.dx, s.spreader, solid);
   }
   drag_coefficients(models.drag, models.air, which, velocity, c.velocity, c.single_radius, c.carriers, solid, beta);
-  if (s.air && models.two_way) {
+  if (s.air)
+    for (const int p : s.stencils.outside()) beta[p] = 0.0;  // no air there: nothing drags
+  const bool harmless = !volume.empty() && load_bound(largest_fraction, beta, volume, interval, s.scale) <= 1.0;
+  if (s.air && models.two_way && !harmless) {
     std::vector<double> scratch(count, 0.0);
     limit_drag(s.stencils, interval, s.scale, s.spreader, scratch, beta);
   }
