@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "cases/point_field.hpp"
+#include "cases/table_file.hpp"
 
 namespace puffin::cases {
 
@@ -35,6 +36,19 @@ InitialAir taylor_green_2d(double rho, double u, const Vec3& corner, const Vec3&
           }};
 }
 
+InitialAir from_table(const std::string& file) {
+  const auto field = std::make_shared<const PointField>(read_point_field(file));
+  InitialAir start{[field](const Vec3& x) { return field->at(x); }, no_pressure};
+  const Columns columns = read_columns(file, {"x", "y", "z"});
+  if (const auto p = columns.find("p"); p != columns.end()) {
+    std::vector<Vec3> values;
+    for (const double value : p->second) values.emplace_back(value, 0.0, 0.0);
+    const auto pressure = std::make_shared<const PointField>(read_point_rows(file).points, std::move(values));
+    start.pressure = [pressure](const Vec3& x) { return pressure->at(x)[0]; };
+  }
+  return start;
+}
+
 }  // namespace
 
 std::optional<InitialAir> initial_air(const Air& air, const Vec3& corner, const Vec3& box) {
@@ -53,10 +67,8 @@ std::optional<InitialAir> initial_air(const Air& air, const Vec3& corner, const 
                                   0.05 * u * std::sin(2.0 * std::numbers::pi * (x[0] + 0.25)), 0.0};
                         },
                         no_pressure};
-    case InitialField::file: {
-      const auto field = std::make_shared<const PointField>(read_point_field(air.initial_file));
-      return InitialAir{[field](const Vec3& x) { return field->at(x); }, no_pressure};
-    }
+    case InitialField::file:
+      return from_table(air.initial_file);
     case InitialField::uniform:
       break;
   }

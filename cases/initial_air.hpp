@@ -21,7 +21,7 @@ struct InitialAir {
 ///                 p = -rho U^2/4 (cos 2x + cos 2y)
 ///   shear-layer   two layers of thickness 1/80 of the box with a 5 % disturbance
 ///                 [Minion & Brown, J. Comput. Phys. 138, 734 (1997)]
-///   { file }      the points of the file (point_field.hpp), pressure zero
+///   { file }      the points of the file (point_field.hpp); pressure from its column p [Pa] if it has one, else zero
 /// Throws std::invalid_argument for a file that cannot be used.
 std::optional<InitialAir> initial_air(const Air& air, const Vec3& corner, const Vec3& box);
 

@@ -38,6 +38,10 @@ KeyPoints block_points(const Vec3& size) {
 Vec3 duct_size(const Values& v) { return {v.number("length"), v.number("width"), v.number("height")}; }
 Vec3 box_size(const Values& v) { return {v.number("x"), v.number("y"), v.number("z")}; }
 
+/// A quarter of the shortest side; for shapes that are thin (one cell of a two-dimensional flow) not below 1/200 of the
+/// whole, or the thickness would set the number of triangles.
+double facet_of(const Vec3& size) { return std::max(0.25 * size.minCoeff(), 0.005 * size.norm()); }
+
 struct StepSections {
   Section before, after;
 };
@@ -56,7 +60,7 @@ Kind duct_kind() {
            {"height", 3.5 * mm, "m", "height (z)", assumed, positive},
            {"periodic", false, "", "name the six faces x-min ... z-max, as a box has them", assumed},
            facet_size_info(0.0)},
-          [](Values& v, Problems&) { choose_facet_size(v, 0.25 * duct_size(v).minCoeff()); },
+          [](Values& v, Problems&) { choose_facet_size(v, facet_of(duct_size(v))); },
           [](const Values& v, Surface& s) { add_block(duct_size(v), v.flag("periodic"), s); },
           [](const Values& v) { return block_points(duct_size(v)); }};
 }
@@ -68,44 +72,45 @@ Kind box_kind() {
            {"y", 10.0 * mm, "m", "width (y)", assumed, positive},
            {"z", 10.0 * mm, "m", "height (z)", assumed, positive},
            facet_size_info(0.0)},
-          [](Values& v, Problems&) { choose_facet_size(v, 0.25 * box_size(v).minCoeff()); },
+          [](Values& v, Problems&) { choose_facet_size(v, facet_of(box_size(v))); },
           [](const Values& v, Surface& s) { add_block(box_size(v), true, s); },
           [](const Values& v) { return block_points(box_size(v)); }};
 }
 
 Kind step_kind() {
-  return {
-      "step",
-      "a backward-facing step: the floor drops by step_height at x = inlet_length",
-      {{"inlet_height", 2.0 * mm, "m", "height (z) before the step", assumed, positive},
-       {"step_height", 2.0 * mm, "m", "height of the step", assumed, positive},
-       {"width", 7.0 * mm, "m", "width (y)", assumed, positive},
-       {"inlet_length", 10.0 * mm, "m", "length before the step", assumed, positive},
-       {"outlet_length", 40.0 * mm, "m", "length behind the step", assumed, positive},
-       {"periodic", false, "", "name the two sides y-min and y-max, for a two-dimensional flow", assumed},
-       facet_size_info(0.0)},
-      [](Values& v, Problems&) {
-        choose_facet_size(v, 0.25 * std::min({v.number("inlet_height"), v.number("step_height"), v.number("width")}));
-      },
-      [](const Values& v, Surface& s) {
-        const auto [before, after] = step_sections(v);
-        const double edge = v.number("inlet_length"), end = edge + v.number("outlet_length");
-        const SideNames sides = v.flag("periodic") ? SideNames{"y-min", "y-max", "wall", "wall"} : wall;
-        s.declare({"inlet", "outlet", "wall", "y-min", "y-max"});
-        add_end("inlet", 0.0, before, false, s);
-        add_sides(sides, 0.0, edge, before, s);
-        add_section_change("wall", edge, before, after, s);
-        add_sides(sides, edge, end, after, s);
-        add_end("outlet", end, after, true, s);
-      },
-      [](const Values& v) {
-        const auto [before, after] = step_sections(v);
-        KeyPoints points;
-        points.path_length = v.number("inlet_length") + v.number("outlet_length");
-        points.inlet = before.centre(0.0);
-        points.outlet = after.centre(points.path_length);
-        return points;
-      }};
+  return {"step",
+          "a backward-facing step: the floor drops by step_height at x = inlet_length",
+          {{"inlet_height", 2.0 * mm, "m", "height (z) before the step", assumed, positive},
+           {"step_height", 2.0 * mm, "m", "height of the step", assumed, positive},
+           {"width", 7.0 * mm, "m", "width (y)", assumed, positive},
+           {"inlet_length", 10.0 * mm, "m", "length before the step", assumed, positive},
+           {"outlet_length", 40.0 * mm, "m", "length behind the step", assumed, positive},
+           {"periodic", false, "", "name the two sides y-min and y-max, for a two-dimensional flow", assumed},
+           facet_size_info(0.0)},
+          [](Values& v, Problems&) {
+            const double thinnest = std::min({v.number("inlet_height"), v.number("step_height"), v.number("width")});
+            choose_facet_size(
+                v, std::max(0.25 * thinnest, 0.005 * (v.number("inlet_length") + v.number("outlet_length"))));
+          },
+          [](const Values& v, Surface& s) {
+            const auto [before, after] = step_sections(v);
+            const double edge = v.number("inlet_length"), end = edge + v.number("outlet_length");
+            const SideNames sides = v.flag("periodic") ? SideNames{"y-min", "y-max", "wall", "wall"} : wall;
+            s.declare({"inlet", "outlet", "wall", "y-min", "y-max"});
+            add_end("inlet", 0.0, before, false, s);
+            add_sides(sides, 0.0, edge, before, s);
+            add_section_change("wall", edge, before, after, s);
+            add_sides(sides, edge, end, after, s);
+            add_end("outlet", end, after, true, s);
+          },
+          [](const Values& v) {
+            const auto [before, after] = step_sections(v);
+            KeyPoints points;
+            points.path_length = v.number("inlet_length") + v.number("outlet_length");
+            points.inlet = before.centre(0.0);
+            points.outlet = after.centre(points.path_length);
+            return points;
+          }};
 }
 
 }  // namespace puffin::cases::generators

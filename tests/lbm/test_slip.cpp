@@ -24,7 +24,7 @@ Air make(BoxScene& scene) {
 // Specular reflection keeps the tangential momentum of every population: a uniform stream between slip walls is steady
 // to rounding, 200 steps of 1e-16.
 TEST(Slip, AUniformStreamAlongSlipWallsStaysWhatItIs) {
-  for (const Vec3 u : {Vec3(0.05, 0, 0), Vec3(0.03, 0.04, 0)}) {
+  for (const Vec3& u : {Vec3(0.05, 0, 0), Vec3(0.03, 0.04, 0)}) {
     // Periodic where the stream crosses, slip on the other sides: corners of slip walls among them.
     const bool across = u[1] != 0.0;
     const Boundary y = across ? periodic() : slip();
@@ -33,7 +33,7 @@ TEST(Slip, AUniformStreamAlongSlipWallsStaysWhatItIs) {
     set_cells([&](const Vec3&) { return InitialCell{0.0, {u[0], u[1], u[2]}, {}}; }, air);
     const Drive drive = at_rest(air);
     for (int t = 0; t < 200; ++t) step(air, 0.6, drive);
-    for (const Run& run : air.rows.runs())
+    for (const auto& run : air.rows.runs())
       for (int n = 0; n < run.count; ++n) {
         const auto m = moments_at(air, run.first + n);
         ASSERT_LT((Vec3(m.ux, m.uy, m.uz) - u).norm(), 1e-13);
@@ -99,11 +99,11 @@ TEST(Slip, MassFluxesBesideSlipWallsBalanceTheChangeOfDensity) {
     const Drive drive = at_rest(air);
     for (int t = 0; t < 7; ++t) {
       std::vector<double> before(air.rows.slots(), 0.0);
-      for (const Run& run : air.rows.runs())
+      for (const auto& run : air.rows.runs())
         for (int n = 0; n < run.count; ++n) before[run.first + n] = moments_at(air, run.first + n).density_excess;
       step(air, 0.6, drive);
       find_mass_fluxes(air, routes, fluxes);
-      for (const Run& run : air.rows.runs())
+      for (const auto& run : air.rows.runs())
         for (int n = 0; n < run.count; ++n) {
           const std::ptrdiff_t s = run.first + n;
           double in = 0.0;

@@ -1,0 +1,80 @@
+// Whole runs of the program with fields from files and runs, misplaced samplers, a turbulent inlet.
+
+#include "tests/tools/run/air_scene.hpp"
+
+namespace puffin::test {
+namespace {
+
+const std::string carrier = R"toml(
+[carriers]
+list = [{ position = [0.0005, 3e-5, 0.0005], velocity = [0.0, 0.0, 0.0], diameter = "2 um", density = "1000 kg/m^3" }]
+gravity = [0.0, 0.0, 0.0]
+rotation = false
+[stop]
+time = "1 ms"
+[output]
+carriers = "0.25 ms"
+)toml";
+const std::string frozen_channel = R"toml(
+schema = 1
+name = "frozen"
+[geometry]
+generator = "duct"
+[geometry.duct]
+length = "3 mm"
+width = "0.0625 mm"
+height = "1 mm"
+[air]
+model = "frozen"
+density = "1.204 kg/m^3"
+viscosity = "1.806e-5 Pa s"
+)toml";
+
+// Stokes time of a carrier of 2 um: 12 us. In the stored field of the channel it soon has the speed of the air, 0.75
+// m/s in the middle (to the 0.6 % of the field).
+TEST_F(AirScene, AFrozenFieldMayBeThatOfAnotherRun) {
+  ASSERT_EQ(run("channel", channel), 0) << text("channel.log");
+  const std::string field = "field = { run = \"channel\", at = \"40 ms\" }\n";
+  ASSERT_EQ(run("frozen", frozen_channel + field + carrier), 0) << text("frozen.log");
+  EXPECT_NEAR(table("frozen/tracks.csv").numbers("u").back(), 0.75, 0.006);
+  const std::string late = "field = { run = \"channel\", at = \"70 ms\" }\n";
+  EXPECT_EQ(run("late", frozen_channel + late + carrier), 3);
+  EXPECT_NE(text("late.log").find("has no field at 70 ms"), std::string::npos) << text("late.log");
+}
+
+TEST_F(AirScene, AFrozenFieldMayComeFromATable) {
+  std::ofstream(folder_ / "field.csv") << "x,y,z,u,v,w\n0,0,0,0,0,0\n0,0,0.001,2,0,0\n";
+  ASSERT_EQ(run("table", frozen_channel + "field = { file = \"field.csv\" }\n" + carrier), 0) << text("table.log");
+  EXPECT_NEAR(table("table/tracks.csv").numbers("u").back(), 1.0, 1e-6);
+  std::ofstream(folder_ / "field.csv") << "x,y,z,u,v\n0,0,0,0,0\n";
+  EXPECT_EQ(run("bad", frozen_channel + "field = { file = \"field.csv\" }\n" + carrier), 3);
+  EXPECT_NE(text("bad.log").find("lacks the columns w"), std::string::npos) << text("bad.log");
+}
+
+TEST_F(AirScene, SamplersOutsideTheFluidAreRefusedAtTheirPlace) {
+  const auto with = [](const std::string& from, const std::string& to) {
+    std::string t = channel;
+    return t.replace(t.find(from), from.size(), to);
+  };
+  EXPECT_EQ(run("probe", with("at = [0.0015, 3e-5, 1e-5]", "at = [0.0015, 3e-5, 2.0]")), 3);
+  EXPECT_NE(text("probe.log").find("probe.toml:"), std::string::npos) << text("probe.log");
+  EXPECT_NE(text("probe.log").find("'wall' lies outside the fluid"), std::string::npos) << text("probe.log");
+  EXPECT_EQ(run("plane", with("at = \"3 mm\"", "at = \"3.2 mm\"")), 3);
+  EXPECT_EQ(run("slice", with("region = \"all\"", "region = \"slice:z=2mm\"")), 3);
+}
+
+TEST_F(AirScene, AnInletMayBeTurbulentAndKeepsItsFlow) {
+  std::string t = channel;
+  const std::string anchor = "velocity = \"0.5 m/s\"";
+  t.replace(t.find(anchor), anchor.size(), anchor + "\nturbulence = 0.1");
+  ASSERT_EQ(run("calm", channel, "--until 8ms"), 0) << text("calm.log");
+  ASSERT_EQ(run("rough", t, "--until 8ms"), 0) << text("rough.log");
+  const double calm = last(table("calm/planes.csv"), "plane", "first", "flow_rate"),
+               rough = last(table("rough/planes.csv"), "plane", "first", "flow_rate");
+  EXPECT_NEAR(rough, calm, 2e-3 * calm);
+  EXPECT_NE(last(table("calm/probes.csv"), "probe", "wall", "u"),
+            last(table("rough/probes.csv"), "probe", "wall", "u"));
+}
+
+}  // namespace
+}  // namespace puffin::test
