@@ -210,6 +210,26 @@ void remove_departed(const Models& models, State& s) {
   dem::remove(gone, s.carriers);  // what they owe the air is still in impulse_on_air, by their old places
 }
 
+/// The carriers' part. What their integration cannot go on with is a divergence, with the place where it happened.
+void step_carriers(const Models& models, double interval, State& s) {
+  const Stopwatch watch(s.effort.carriers);
+  try {
+    dem::advance(interval, models.carriers, *models.walls, s.loads, s.carriers, s.events);
+  } catch (const std::runtime_error& e) {
+    const dem::Carriers& c = s.carriers.carriers;
+    std::string where;
+    for (std::size_t p = 0; where.empty() && p < c.size() && p < s.stencils_at.position.size(); ++p)
+      if (!c.position[p].allFinite() || !c.velocity[p].allFinite()) {
+        char text[96];
+        const Vec3& x = s.stencils_at.position[p];
+        std::snprintf(text, sizeof text, "; it was last at [%.5g, %.5g, %.5g] m", x[0], x[1], x[2]);
+        where = text;
+      }
+    diverge("%s%s. Likely causes: a contact too stiff for its step, or air that diverged around the carrier", e.what(),
+            where.c_str());
+  }
+}
+
 void move_fines(const Models& models, std::int64_t steps, double interval, State& s) {
   if (!models.fines || !s.air) return;
   {
@@ -246,7 +266,12 @@ void carry_fines(const Models& models, bool now, State& s) {
   for (std::size_t k = 0; k < options.scalar.size(); ++k)
     options.scalar[k].diffusivity = s.scale.viscosity_lu(models.diffusion[k]);
   lbm::find_mass_fluxes(*s.air, s.routes, s.fluxes);
-  lbm::advance_scalars(s.air->rows, s.fluxes, static_cast<double>(s.steps_since_scalars), options, s.scalars, s.budget);
+  try {
+    lbm::advance_scalars(s.air->rows, s.fluxes, static_cast<double>(s.steps_since_scalars), options, s.scalars,
+                         s.budget);
+  } catch (const std::runtime_error& e) {
+    diverge("%s (t = %.6g s)", e.what(), s.time);
+  }
   s.steps_per_scalar_update = std::clamp(std::floor(lbm::max_steps(s.air->rows, s.fluxes, options.cfl)), 1.0, 64.0);
   s.effort.scalar_steps += s.steps_since_scalars;
   s.steps_since_scalars = 0;
@@ -257,8 +282,8 @@ void carry_fines(const Models& models, bool now, State& s) {
 void advance(const Models& models, double until, State& s) {
   // The time step of this interval, and how many air steps it has.
   const double old_dt = s.scale.dt;
-  const double wanted = models.time_step.next(s.time, old_dt);
-  const double rescale = s.air && s.air->steps > 0 ? wanted / old_dt : 1.0;
+  const double wanted = models.time_step.next(s.time, old_dt, s.step_factor);
+  const double rescale = s.air ? wanted / old_dt : 1.0;
   if (rescale != 1.0) {
     carry_fines(models, true, s);  // with the old step's fluxes
     ++s.effort.rescalings;
@@ -277,7 +302,8 @@ void advance(const Models& models, double until, State& s) {
       give_reaction(interval, s);
       std::vector<int> all(s.carriers.carriers.size());
       for (std::size_t p = 0; p < all.size(); ++p) all[p] = static_cast<int>(p);
-      s.stencils.build(s.cells, s.carriers.carriers.position, s.carriers.carriers.radius, all);
+      s.stencils_at = {s.carriers.carriers.position, s.carriers.carriers.radius};
+      s.stencils.build(s.cells, s.stencils_at.position, s.stencils_at.radius, all);
     }
     step_air(models, steps, rescale, s);
   }
@@ -291,10 +317,7 @@ void advance(const Models& models, double until, State& s) {
       const Stopwatch watch(s.effort.exchange);
       find_loads(models, interval, s);
     }
-    {
-      const Stopwatch watch(s.effort.carriers);
-      dem::advance(interval, models.carriers, *models.walls, s.loads, s.carriers, s.events);
-    }
+    step_carriers(models, interval, s);
     s.first_motion.update(s.carriers.carriers, s.time + interval);
     count_collisions(s.events.begun, s.carriers.carriers, s.first_motion.time(), s.collisions);
     if (s.air && models.two_way) {

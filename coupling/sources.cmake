@@ -1,10 +1,15 @@
 set(PUFFIN_COUPLING_SOURCES
   cell_index.cpp
+  checkpoint/carriers.cpp
+  checkpoint/file.cpp
+  checkpoint/hash.cpp
+  checkpoint/state.cpp
   collisions.cpp
   drag.cpp
   drag_limit.cpp
   fines.cpp
   first_motion.cpp
+  health.cpp
   kernel.cpp
   release_fines.cpp
   statistics.cpp

@@ -1,5 +1,6 @@
 #pragma once
 // Everything that changes during a run, and everything that does not. Both plain data.
+// A new member of State: coupling/checkpoint/state.cpp asks whether it belongs in a checkpoint.
 
 #include <array>
 #include <functional>
@@ -72,6 +73,12 @@ struct Departure {
   double carriers = 1.0;
 };
 
+/// From what stencils were built: enough to build them again.
+struct StencilPlaces {
+  std::vector<Vec3> position;  // [m]
+  std::vector<double> radius;  // [m]
+};
+
 /// Seconds by phase of the work, and counts of what was left out.
 struct Effort {
   double air = 0.0, links = 0.0, exchange = 0.0, carriers = 0.0, fines = 0.0, scalars = 0.0;  // [s]
@@ -90,6 +97,7 @@ struct Extremes {
 struct State {
   double time = 0.0;  // [s]
   Scale scale;
+  double step_factor = 1.0;  // of the time step; halved by each retreat from a failure
 
   std::optional<lbm::Air> air;
   lbm::Drive drive;
@@ -104,7 +112,9 @@ struct State {
   std::vector<Departure> departures;
   dem::Events events;  // of the last exchange; the caller may read and must not keep references
 
-  Stencils stencils, spread_on;  // present, and those on which forces lie
+  Stencils stencils;          // of the last interval's start; the reaction of that interval belongs to them
+  StencilPlaces stencils_at;  // what they were built from
+  Stencils spread_on;         // those on which forces lie
   AirSamples samples;
   Spreader spreader;
   std::vector<Vec3> impulse_on_air;  // [N s] by place in `stencils`, to be given to the air in the next exchange

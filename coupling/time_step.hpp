@@ -26,8 +26,9 @@ struct TimeStepRule {
     return reference_dt * (u > reference_speed / longest ? reference_speed / u : longest);
   }
   /// The step to use from time t on, if the present one is `dt`: kept while it is within the window of the wanted one.
-  double next(double t, double dt) const {
-    const double best = wanted(t);
+  /// `factor`: of every step; below 1 after a retreat from a failure.
+  double next(double t, double dt, double factor = 1.0) const {
+    const double best = factor * wanted(t);
     if (dt > best * (1.0 + 0.5 * window) || dt < best * (1.0 - 1.5 * window)) return best * (1.0 - 0.5 * window);
     return dt;
   }

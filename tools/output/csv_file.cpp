@@ -78,20 +78,21 @@ std::string shortest(double value) {
   return error == std::errc() ? std::string(text, end) : "nan";
 }
 
-CsvFile::CsvFile(std::filesystem::path file, std::vector<std::string> columns, std::optional<double> resume_after)
+CsvFile::CsvFile(std::filesystem::path file, const std::vector<std::string>& columns, std::optional<std::uint64_t> keep)
     : file_(std::move(file)), columns_(columns.size()) {
-  std::string text = joined(columns);
-  if (resume_after && std::filesystem::exists(file_)) {
-    const CsvTable old = read_csv(file_);
-    if (old.columns != columns) {
+  const std::string header = joined(columns);
+  if (keep) {
+    std::string begin(header.size(), ' ');
+    std::ifstream(file_, std::ios::binary).read(begin.data(), static_cast<std::streamsize>(begin.size()));
+    if (begin != header || *keep < header.size()) {
       throw OutputError(file_.string() +
                         ": its columns are not those of this version, so the run cannot be resumed; start it anew");
     }
-    for (const auto& row : old.rows) {
-      if (row.size() == columns_ && as_number(row.front()) <= *resume_after) text += joined(row);
-    }
+    keep_first(file_, *keep);
+  } else {
+    write_whole(file_, header);
   }
-  write_whole(file_, text);
+  bytes_ = keep.value_or(header.size());
   stream_.open(file_, std::ios::app | std::ios::binary);
   check();
 }
@@ -107,6 +108,7 @@ void CsvFile::append(std::span<const CsvCell> cells) {
     line += as_text(cells[i]);
   }
   stream_ << line << '\n';
+  bytes_ += line.size() + 1;
   if (std::chrono::steady_clock::now() - flushed_ > std::chrono::seconds(1)) {
     flush();
   } else {
@@ -118,6 +120,11 @@ void CsvFile::flush() {
   stream_.flush();
   flushed_ = std::chrono::steady_clock::now();
   check();
+}
+
+void CsvFile::sync() {
+  flush();
+  sync_file(file_);
 }
 
 void CsvFile::check() const {

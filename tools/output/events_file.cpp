@@ -1,7 +1,5 @@
 #include "tools/output/events_file.hpp"
 
-#include <algorithm>
-
 #include "tools/output/hdf5_handle.hpp"
 
 namespace puffin::output {
@@ -54,24 +52,15 @@ struct EventsFile::Impl {
   }
 };
 
-EventsFile::EventsFile(const std::filesystem::path& path, std::optional<double> resume_after) {
-  const bool resume = resume_after && std::filesystem::exists(path);
-  impl_ = std::make_unique<Impl>(Impl{Hdf5File(path, format, resume), compound(), {}, {}, 0});
+EventsFile::EventsFile(const std::filesystem::path& path) {
+  impl_ = std::make_unique<Impl>(Impl{Hdf5File(path, format), compound(), {}, {}, 0});
   Impl& d = *impl_;
   const Hdf5Quiet quiet;
-  if (!resume) {
-    // In the file without the padding that the compiler may put between the members.
-    const Hdf5Handle packed(H5Tcopy(d.type), H5Tclose);
-    H5Tpack(packed);
-    d.dataset = d.file.create_growing(d.file.id(), "events", packed, chunk);
-    d.file.flush();
-    return;
-  }
-  d.dataset = {d.file.good(H5Dopen2(d.file.id(), "events", H5P_DEFAULT), "find /events in"), H5Dclose};
-  const std::vector<EventRecord> old = read_all(d.file, d.dataset);
-  const auto late = std::find_if(old.begin(), old.end(), [&](const auto& e) { return e.time_end > *resume_after; });
-  d.written = late - old.begin();
-  d.file.cut(d.dataset, static_cast<hsize_t>(d.written));
+  // In the file without the padding that the compiler may put between the members.
+  const Hdf5Handle packed(H5Tcopy(d.type), H5Tclose);
+  H5Tpack(packed);
+  d.dataset = d.file.create_growing(d.file.id(), "events", packed, chunk);
+  d.file.flush();
 }
 
 EventsFile::~EventsFile() {

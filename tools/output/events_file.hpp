@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -26,12 +25,12 @@ struct EventRecord {
 };
 
 /// Data set /events (compound, chunked, shuffled and deflated); attributes of the root: format = "puffin-events",
-/// format_version = 1. Records are collected and written in blocks.
+/// format_version = 1. Records are collected and written in blocks. A kill can leave such a file unreadable, so while a
+/// run goes on its records are in an EventsJournal.
 class EventsFile {
  public:
-  /// resume_after: keep an existing file's records up to and including the last one with time_end at most this time
-  /// [s]. Throws OutputError if the file cannot be written.
-  explicit EventsFile(const std::filesystem::path& file, std::optional<double> resume_after = {});
+  /// Throws OutputError if the file cannot be written.
+  explicit EventsFile(const std::filesystem::path& file);
   ~EventsFile();
   EventsFile(EventsFile&&) noexcept;
   EventsFile& operator=(EventsFile&&) noexcept;

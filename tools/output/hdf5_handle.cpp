@@ -12,13 +12,8 @@ hid_t Hdf5File::good(hid_t id, const std::string& what) const {
   return id;
 }
 
-Hdf5File::Hdf5File(const std::filesystem::path& path, const std::string& format, bool open_existing) : path_(path) {
+Hdf5File::Hdf5File(const std::filesystem::path& path, const std::string& format) : path_(path) {
   const Hdf5Quiet quiet;
-  if (open_existing) {
-    file_ = {good(H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), "open"), H5Fclose};
-    check_format(format);
-    return;
-  }
   file_ = {good(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), "write"), H5Fclose};
   set_text(file_, "format", format);
   const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose);
@@ -58,6 +53,7 @@ Hdf5Handle Hdf5File::create_growing(hid_t parent, const std::string& name, hid_t
   H5Pset_chunk(properties, 1, &chunk);
   H5Pset_shuffle(properties);
   H5Pset_deflate(properties, 4);
+  H5Pset_obj_track_times(properties, false);
   return {good(H5Dcreate2(parent, name.c_str(), type, space, H5P_DEFAULT, properties, H5P_DEFAULT), "write"), H5Dclose};
 }
 
@@ -76,11 +72,6 @@ void Hdf5File::append(hid_t dataset, hid_t type, const void* elements, hsize_t n
   H5Sselect_hyperslab(target, H5S_SELECT_SET, &old, nullptr, &n, nullptr);
   const Hdf5Handle source(H5Screate_simple(1, &n, nullptr), H5Sclose);
   good(H5Dwrite(dataset, type, source, target, H5P_DEFAULT, elements), "write");
-}
-
-void Hdf5File::cut(hid_t dataset, hsize_t wanted) const {
-  const Hdf5Quiet quiet;
-  if (wanted < length(dataset)) good(H5Dset_extent(dataset, &wanted), "write");
 }
 
 void Hdf5File::flush() const {

@@ -52,17 +52,17 @@ class Hdf5Quiet {
 /// A file with the operations that both writers need.
 class Hdf5File {
  public:
-  /// Creates or opens for writing. `format` is checked when opened, stored with version 1 when created.
-  Hdf5File(const std::filesystem::path& path, const std::string& format, bool open_existing);
-  /// Opens for reading.
+  /// Creates a file for writing and stores `format` with version 1.
+  Hdf5File(const std::filesystem::path& path, const std::string& format);
+  /// Opens for reading and checks the format.
   static Hdf5File reading(const std::filesystem::path& path, const std::string& format);
 
-  /// A growing one-dimensional data set, chunked, shuffled and deflated.
+  /// A growing one-dimensional data set, chunked, shuffled and deflated; without a time stamp, so that equal contents
+  /// give equal bytes.
   Hdf5Handle create_growing(hid_t parent, const std::string& name, hid_t type, hsize_t chunk) const;
   /// Appends n elements of `type` at the end.
   void append(hid_t dataset, hid_t type, const void* elements, hsize_t n) const;
   hsize_t length(hid_t dataset) const;
-  void cut(hid_t dataset, hsize_t length) const;
   void flush() const;
   void set_text(hid_t object, const std::string& name, const std::string& text) const;
   std::string text(hid_t object, const std::string& name) const;

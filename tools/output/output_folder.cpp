@@ -3,8 +3,10 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
+#include <charconv>
 #include <cstring>
 #include <ctime>
 #include <string_view>
@@ -23,8 +25,10 @@ constexpr std::array<std::string_view, 16> own_names{
     "lines.csv", "planes.csv",  "forces.csv", "tracks.csv",   "vtk",         "checkpoints", "images",    "report.html"};
 
 [[noreturn]] void fail(const fs::path& where, const std::string& what, int error) {
+  const bool vanished = error == ENOENT && !fs::exists(where.parent_path());
   throw OutputError("cannot " + what + " " + where.string() + ": " + std::strerror(error) +
-                    "; free some space, or choose a folder that can be written with --out");
+                    (vanished ? "; its folder has vanished"
+                              : "; free some space, or choose a folder that can be written with --out"));
 }
 
 std::string timestamp() {
@@ -43,11 +47,7 @@ void make_folder(const fs::path& folder) {
   if (access(folder.c_str(), W_OK) != 0) fail(folder, "write into", errno);
 }
 
-bool has_checkpoints(const fs::path& folder) {
-  std::error_code error;
-  const fs::path checkpoints = folder / "checkpoints";
-  return fs::is_directory(checkpoints, error) && !fs::is_empty(checkpoints, error);
-}
+constexpr std::string_view checkpoint_prefix = "checkpoint-", checkpoint_suffix = ".bin";
 
 /// A new folder below runs/NAME, also when two runs start within the same second.
 fs::path fresh_folder(const fs::path& parent) {
@@ -73,17 +73,17 @@ void point_latest(const fs::path& folder) {
   if (error) fail(link, "set the link", error.value());
 }
 
-void refuse_or_clear(const fs::path& folder, bool resume) {
+/// True if the folder holds a run to go on with.
+bool refuse_or_clear(const fs::path& folder, bool resume) {
   const std::string where = folder.string();
   if (fs::exists(folder / "summary.json") && read_summary(folder / "summary.json").state == "finished") {
     throw OutputError(where + " holds a finished run, which is never overwritten; choose another folder with --out");
   }
   const bool from_a_run = fs::exists(folder / "status.json");
-  if (resume) {
-    if (from_a_run && has_checkpoints(folder)) return;
-    throw OutputError(where + " holds no checkpoint to resume from; start the run without --resume");
-  }
-  if (from_a_run && has_checkpoints(folder)) {
+  const bool has_checkpoints = from_a_run && !list_checkpoints(folder).empty();
+  if (resume && has_checkpoints) return true;
+  if (resume && !from_a_run) throw OutputError(where + " holds no run to resume; start it without --resume");
+  if (has_checkpoints) {
     throw OutputError(where +
                       " holds an unfinished run with checkpoints; add --resume to go on with it, or choose another "
                       "folder with --out");
@@ -99,9 +99,36 @@ void refuse_or_clear(const fs::path& folder, bool resume) {
     fs::remove_all(file, error);
     if (error) fail(file, "remove", error.value());
   }
+  return false;
 }
 
 }  // namespace
+
+fs::path checkpoint_name(std::int64_t number) {
+  std::string digits = std::to_string(number);
+  digits.insert(0, digits.size() < 6 ? 6 - digits.size() : 0, '0');
+  return fs::path("checkpoints") / (std::string(checkpoint_prefix) + digits + std::string(checkpoint_suffix));
+}
+
+std::int64_t checkpoint_number(const fs::path& file) {
+  const std::string name = file.filename().string();
+  if (!name.starts_with(checkpoint_prefix) || !name.ends_with(checkpoint_suffix)) return -1;
+  std::int64_t number = -1;
+  const char* begin = name.data() + checkpoint_prefix.size();
+  const char* end = name.data() + name.size() - checkpoint_suffix.size();
+  const auto [stop, error] = std::from_chars(begin, end, number);
+  return error == std::errc() && stop == end ? number : -1;
+}
+
+std::vector<fs::path> list_checkpoints(const fs::path& run) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (fs::directory_iterator at(run / "checkpoints", error), end; !error && at != end; at.increment(error))
+    if (checkpoint_number(at->path()) >= 0) files.push_back(at->path());
+  std::sort(files.begin(), files.end(),
+            [](const fs::path& a, const fs::path& b) { return checkpoint_number(a) > checkpoint_number(b); });
+  return files;
+}
 
 std::string folder_name(const std::string& name) {
   std::string out;
@@ -117,7 +144,7 @@ OutputFolder::OutputFolder(const std::optional<fs::path>& out, const std::string
   if (out) {
     make_folder(*out);
     path_ = fs::canonical(*out);
-    refuse_or_clear(path_, resume);
+    resumed_ = refuse_or_clear(path_, resume);
     return;
   }
   const fs::path parent = fs::absolute(fs::path("runs") / folder_name(name));
@@ -125,7 +152,7 @@ OutputFolder::OutputFolder(const std::optional<fs::path>& out, const std::string
     std::error_code error;
     path_ = fs::canonical(parent / "latest", error);
     if (error) throw OutputError(parent.string() + " holds no run to resume; name its folder with --out");
-    refuse_or_clear(path_, true);
+    resumed_ = refuse_or_clear(path_, true);
     return;
   }
   path_ = fs::canonical(fresh_folder(parent));
@@ -138,6 +165,9 @@ fs::path OutputFolder::file(const fs::path& relative) const {
     throw OutputError("refused to write " + relative.string() + ": it lies outside the run's folder " + path_.string() +
                       "; use a plain name");
   }
+  if (std::error_code error; !fs::is_directory(path_, error))
+    throw OutputError("the run's folder " + path_.string() +
+                      " has vanished; what the run wrote since is lost, so it ends here");
   const fs::path full = path_ / inside;
   make_folder(full.parent_path());
   // A link inside the folder must not lead out of it.
@@ -175,6 +205,31 @@ void write_whole(const fs::path& file, const std::string& text) {
     unlink(temporary.c_str());
     fail(file, "write", error);
   }
+}
+
+void keep_first(const fs::path& file, std::uint64_t bytes) {
+  std::error_code error;
+  const std::uintmax_t size = fs::file_size(file, error);
+  if (error) fail(file, "read", error.value());
+  if (size < bytes) {
+    throw OutputError(file.string() + " is shorter than its checkpoint says (" + std::to_string(size) + " of " +
+                      std::to_string(bytes) + " bytes), so the run cannot be resumed; start it anew");
+  }
+  fs::resize_file(file, bytes, error);
+  if (error) fail(file, "write", error.value());
+}
+
+void sync_file(const fs::path& file) {
+  const int descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) fail(file, "write", errno);
+  const int error = fsync(descriptor) != 0 && errno != EINVAL ? errno : 0;
+  close(descriptor);
+  if (error != 0) fail(file, "write", error);
+}
+
+void finish_file(const fs::path& temporary, const fs::path& file) {
+  sync_file(temporary);
+  if (std::rename(temporary.c_str(), file.c_str()) != 0) fail(file, "write", errno);
 }
 
 }  // namespace puffin::output

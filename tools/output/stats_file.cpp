@@ -1,7 +1,5 @@
 #include "tools/output/stats_file.hpp"
 
-#include <algorithm>
-#include <chrono>
 #include <stdexcept>
 
 #include "tools/output/hdf5_handle.hpp"
@@ -26,7 +24,6 @@ struct StatsFile::Impl {
   Hdf5File file;
   std::vector<Hdf5Handle> datasets;            // one a column
   std::vector<std::vector<double>> collected;  // one a column, not yet written
-  std::chrono::steady_clock::time_point flushed = std::chrono::steady_clock::now();
 
   void write() {
     for (std::size_t c = 0; c < datasets.size(); ++c) {
@@ -36,33 +33,18 @@ struct StatsFile::Impl {
   }
 };
 
-StatsFile::StatsFile(const std::filesystem::path& path, std::vector<StatsColumn> columns,
-                     std::optional<double> resume_after) {
-  const bool resume = resume_after && std::filesystem::exists(path);
-  impl_ = std::make_unique<Impl>(Impl{Hdf5File(path, format, resume), {}, {}, std::chrono::steady_clock::now()});
+StatsFile::StatsFile(const std::filesystem::path& path, const std::vector<StatsColumn>& columns) {
+  impl_ = std::make_unique<Impl>(Impl{Hdf5File(path, format), {}, {}});
   Impl& d = *impl_;
   d.collected.resize(columns.size());
   const Hdf5Quiet quiet;
-  if (!resume) {
-    const Hdf5Handle group(H5Gcreate2(d.file.id(), "history", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
-    d.file.good(group, "write");
-    for (const auto& column : columns) {
-      d.datasets.push_back(d.file.create_growing(group, column.name, H5T_IEEE_F64LE, chunk));
-      d.file.set_text(d.datasets.back(), "unit", column.unit);
-    }
-    d.file.flush();
-    return;
-  }
-  const Hdf5Handle group(d.file.good(H5Gopen2(d.file.id(), "history", H5P_DEFAULT), "read"), H5Gclose);
+  const Hdf5Handle group(H5Gcreate2(d.file.id(), "history", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
+  d.file.good(group, "write");
   for (const auto& column : columns) {
-    d.datasets.emplace_back(d.file.good(H5Dopen2(group, column.name.c_str(), H5P_DEFAULT),
-                                        "find column '" + column.name + "' of an older version in"),
-                            H5Dclose);
+    d.datasets.push_back(d.file.create_growing(group, column.name, H5T_IEEE_F64LE, chunk));
+    d.file.set_text(d.datasets.back(), "unit", column.unit);
   }
-  if (columns.empty()) return;
-  const std::vector<double> time = read_column(d.file, d.datasets.front());
-  const auto late = std::find_if(time.begin(), time.end(), [&](double t) { return t > *resume_after; });
-  for (const auto& dataset : d.datasets) d.file.cut(dataset, static_cast<hsize_t>(late - time.begin()));
+  d.file.flush();
 }
 
 StatsFile::~StatsFile() {
@@ -82,15 +64,12 @@ void StatsFile::append(std::span<const double> row) {
                                 std::to_string(d.collected.size()) + " columns");
   }
   for (std::size_t c = 0; c < row.size(); ++c) d.collected[c].push_back(row[c]);
-  if (row.empty()) return;
-  const bool late = std::chrono::steady_clock::now() - d.flushed > std::chrono::seconds(10);
-  if (late || d.collected.front().size() >= chunk) flush();
+  if (!row.empty() && d.collected.front().size() >= chunk) flush();
 }
 
 void StatsFile::flush() {
   impl_->write();
   impl_->file.flush();
-  impl_->flushed = std::chrono::steady_clock::now();
 }
 
 std::vector<double> read_stats(const std::filesystem::path& path, const std::string& column) {

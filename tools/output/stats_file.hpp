@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -16,21 +15,18 @@ struct StatsColumn {
 };
 
 /// Data sets /history/NAME, all of one length; attributes of the root: format = "puffin-stats", format_version = 1.
-/// The first column is the time. Rows are collected and written in blocks, and at least every ten seconds as far as
-/// rows come.
+/// Rows are collected and written in blocks.
 class StatsFile {
  public:
-  /// resume_after: keep an existing file's rows whose first column is at most this number.
-  /// Throws OutputError if the file cannot be written or, on resuming, has other columns.
-  StatsFile(const std::filesystem::path& file, std::vector<StatsColumn> columns,
-            std::optional<double> resume_after = {});
+  /// Throws OutputError if the file cannot be written.
+  StatsFile(const std::filesystem::path& file, const std::vector<StatsColumn>& columns);
   ~StatsFile();
   StatsFile(StatsFile&&) noexcept;
   StatsFile& operator=(StatsFile&&) noexcept;
 
   /// One value a column. Throws std::invalid_argument on a wrong number of values, OutputError if the disk refuses.
   void append(std::span<const double> row);
-  /// Writes what is collected and hands it to the operating system: a killed run keeps everything flushed.
+  /// Writes what is collected and hands it to the operating system.
   void flush();
 
  private:

@@ -110,6 +110,7 @@ Summary summary_of(const Json& json) {
     s.fines.back().by_mechanism = read<MechanismShares>(part(item, "by_mechanism"));
   }
   if (json.contains("collisions")) s.collisions = read<CollisionSummary>(json["collisions"]);
+  for (const auto& text : part(json, "warnings")) s.warnings.push_back(text.get<std::string>());
   for (const auto& text : part(json, "assumptions")) s.assumptions.push_back(text.get<std::string>());
   for (const auto& row : part(json, "reference")) s.reference.push_back(read<ReferenceRow>(row));
   return s;
@@ -117,6 +118,7 @@ Summary summary_of(const Json& json) {
 
 Json to_json(const Summary& s) {
   Json json = written(s);
+  json["warnings"] = s.warnings;
   json["phases"] = Json::object();
   for (const auto& phase : s.phases) json["phases"][phase.name] = number(phase.seconds);
   json["skipped"] = Json::array();

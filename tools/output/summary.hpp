@@ -78,10 +78,11 @@ struct ReferenceRow {
 struct Summary {
   std::string name;
   std::string version;
-  std::string state;            // finished | diverged | stopped
-  std::string message;          // why it stopped, or where it diverged: step, cell or carrier, value, limit
-  double simulated_time = 0.0;  // [s]
-  double wall_clock = 0.0;      // [s]
+  std::string state;                  // finished | diverged | stopped
+  std::string message;                // why it stopped, or where it diverged: step, cell or carrier, value, limit
+  std::vector<std::string> warnings;  // retreats from failures with a smaller time step
+  double simulated_time = 0.0;        // [s]
+  double wall_clock = 0.0;            // [s]
   int threads = 0;
   std::string host;  // processor and instruction set
   std::int64_t cells_fluid = 0, cells_active = 0;

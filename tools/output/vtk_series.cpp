@@ -51,19 +51,27 @@ std::vector<SeriesEntry> read_pvd(const fs::path& file) {
   return entries;
 }
 
-VtkSeries::VtkSeries(fs::path folder, std::string name, std::optional<double> resume_after)
+VtkSeries::VtkSeries(fs::path folder, std::string name, std::optional<std::size_t> keep)
     : folder_(std::move(folder)), name_(std::move(name)) {
   std::error_code error;
   fs::create_directories(folder_, error);
   if (error) throw OutputError("cannot create the folder " + folder_.string() + ": " + error.message());
+  if (!keep || *keep == 0) return;
   const fs::path pvd = folder_ / (name_ + ".pvd");
-  if (resume_after && fs::exists(pvd)) {
-    for (auto& entry : read_pvd(pvd)) {
-      if (entry.time > *resume_after) continue;
-      if (entries_.empty() || entries_.back().time != entry.time) ++next_number_;
-      entries_.push_back(std::move(entry));
-    }
+  std::vector<SeriesEntry> old = read_pvd(pvd);
+  if (old.size() < *keep) {
+    throw OutputError(pvd.string() + " is shorter than its checkpoint says (" + std::to_string(old.size()) + " of " +
+                      std::to_string(*keep) + " frames), so the run cannot be resumed; start it anew");
   }
+  for (std::size_t n = 0; n < old.size(); ++n) {
+    if (n >= *keep) {
+      fs::remove(folder_ / fs::path(old[n].file).filename(), error);
+      continue;
+    }
+    if (entries_.empty() || entries_.back().time != old[n].time) ++next_number_;
+    entries_.push_back(std::move(old[n]));
+  }
+  write_whole(pvd, pvd_text(entries_));
 }
 
 std::string VtkSeries::next_file(double time, int part, const char* extension) {

@@ -20,8 +20,9 @@ struct SeriesEntry {
 /// renamed, the data before the .pvd: whatever moment the program is killed at, the .pvd names complete files only.
 class VtkSeries {
  public:
-  /// resume_after: keep the entries of an existing series up to and including this time [s]; absent: start anew.
-  VtkSeries(std::filesystem::path folder, std::string name, std::optional<double> resume_after = {});
+  /// keep: go on with an existing series after its first so many entries and remove the rest; absent: start anew.
+  /// Throws OutputError if the existing series is shorter.
+  VtkSeries(std::filesystem::path folder, std::string name, std::optional<std::size_t> keep = {});
 
   void append(double time, const FieldFrame& frame, int part = 0);
   void append(double time, const CarrierFrame& frame, int part = 0);

@@ -1,11 +1,14 @@
 #include "tools/puffin/console.hpp"
 
+#include <spdlog/sinks/basic_file_sink.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+
+#include "tools/output/output_error.hpp"
 
 namespace puffin::tools {
 
@@ -14,8 +17,20 @@ void set_up_log(bool quiet) {
   spdlog::drop("puffin");
   auto logger = spdlog::stderr_color_mt("puffin", plain ? spdlog::color_mode::never : spdlog::color_mode::automatic);
   logger->set_pattern("%^%l%$: %v");
-  logger->set_level(quiet ? spdlog::level::warn : spdlog::level::info);
+  logger->sinks().front()->set_level(quiet ? spdlog::level::warn : spdlog::level::info);
   spdlog::set_default_logger(logger);
+}
+
+void log_to_file(const std::filesystem::path& file) {
+  try {
+    auto sink = std::make_shared<spdlog::sinks::basic_file_sink_mt>(file.string());
+    sink->set_pattern("%Y-%m-%d %H:%M:%S %l: %v");
+    const auto logger = spdlog::get("puffin");
+    logger->sinks().push_back(std::move(sink));
+    logger->flush_on(spdlog::level::info);
+  } catch (const spdlog::spdlog_ex& e) {
+    throw output::OutputError("cannot write " + file.string() + ": " + e.what());
+  }
 }
 
 void log_info(const std::string& text) { spdlog::info("{}", text); }

@@ -1,12 +1,16 @@
 #pragma once
 // Where words go: results to stdout, everything else to stderr.
 
+#include <filesystem>
 #include <string>
 
 namespace puffin::tools {
 
 /// Colours on a terminal only, and never with NO_COLOR set. quiet: warnings and errors alone.
 void set_up_log(bool quiet);
+
+/// From now on the log also goes to this file, whatever is shown; an existing file is continued.
+void log_to_file(const std::filesystem::path& file);
 
 void log_info(const std::string& text);
 void log_warning(const std::string& text);

@@ -2,12 +2,53 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
+#include "coupling/checkpoint/bytes.hpp"
+#include "tools/output/stats_file.hpp"
 #include "tools/puffin/frames_of.hpp"
 
 namespace puffin::tools {
 
 using coupling::Vec3;
+
+namespace {
+
+constexpr const char* journal_name = "checkpoints/events.journal";
+
+/// The contacts that last beyond the end of the run, as if they ended now.
+std::vector<output::EventRecord> open_contacts(const cases::Simulation& s, const MovedFines& moved) {
+  const dem::Carriers& c = s.state.carriers.carriers;
+  std::vector<output::EventRecord> records;
+  for (const dem::Contact& contact : s.state.carriers.contacts) {
+    if (contact.phase == dem::ContactPhase::free) continue;
+    output::EventRecord r;
+    r.time_start = contact.time_start;
+    r.time_end = s.state.time;
+    r.a = static_cast<std::int32_t>(c.id[contact.a]);
+    r.b = contact.b >= 0 ? static_cast<std::int32_t>(c.id[contact.b]) : -1;
+    r.triangle = contact.triangle;
+    r.normal_speed = contact.normal_speed;
+    r.tangential_speed = contact.tangential_speed;
+    const double mass =
+        contact.b >= 0 ? 0.5 * (c.single_mass(contact.a) + c.single_mass(contact.b)) : c.single_mass(contact.a);
+    const double speed = contact.b >= 0 ? std::hypot(r.normal_speed, r.tangential_speed) : r.normal_speed;
+    r.energy = 0.5 * mass * speed * speed;
+    r.max_force = contact.max_force;
+    r.max_overlap = contact.max_overlap;
+    if (const auto found = moved.find({r.a, r.b, r.triangle, r.time_start}); found != moved.end()) {
+      r.detached = found->second.air + found->second.wall;
+      r.attached = found->second.wall;
+    }
+    records.push_back(r);
+  }
+  std::sort(records.begin(), records.end(), [](const output::EventRecord& x, const output::EventRecord& y) {
+    return std::tie(x.time_start, x.a, x.b, x.triangle) < std::tie(y.time_start, y.a, y.b, y.triangle);
+  });
+  return records;
+}
+
+}  // namespace
 
 output::HistoryRow history_row(const cases::Simulation& s, const DropReader& drops) {
   output::HistoryRow row;
@@ -36,35 +77,101 @@ output::HistoryRow history_row(const cases::Simulation& s, const DropReader& dro
   return row;
 }
 
-Recorder::Recorder(const cases::Simulation& s, const output::OutputFolder& folder)
+Recorder::Recorder(const cases::Simulation& s, const output::OutputFolder& folder, const RecorderState* resume)
     : folder_(folder), drops_(s), points_(s) {
   const cases::Output& out = s.description.output;
-  const auto table = [&](const char* name, const std::vector<std::string>& columns) {
-    return std::make_unique<output::CsvFile>(folder.file(name), columns);
-  };
   statistics_.interval = out.statistics;
   carriers_.interval = s.description.carriers ? out.carriers : cases::never;
   carriers_.next = std::isfinite(carriers_.interval) ? 0.0 : cases::never;
-  history_csv_ = table("history.csv", output::history_columns());
+  for (const auto& field : out.fields) fields_.push_back({field.every, 0.0});
+  lines_.resize(out.lines.size());
+  if (resume) {
+    statistics_.next = resume->statistics_next;
+    carriers_.next = resume->carriers_next;
+    bool fits = resume->fields_next.size() == fields_.size() && resume->lines.size() == lines_.size();
+    for (std::size_t k = 0; fits && k < lines_.size(); ++k)
+      fits = resume->lines[k].inside.size() == resume->lines[k].sum.size() &&
+             (resume->lines[k].sum.empty() ||
+              resume->lines[k].sum.size() == static_cast<std::size_t>(out.lines[k].points));
+    if (!fits) throw coupling::CheckpointDamaged("its section 'outputs' does not fit the outputs of this case");
+    for (std::size_t k = 0; k < fields_.size(); ++k) fields_[k].next = resume->fields_next[k];
+    history_ = resume->history;
+    lines_ = resume->lines;
+    moved_ = resume->moved;
+  }
+  open_files(s, resume);
+  if (!resume) walls_vtk_->append(0.0, wall_frame(s));
+}
+
+void Recorder::open_files(const cases::Simulation& s, const RecorderState* resume) {
+  const cases::Output& out = s.description.output;
+  const auto table = [&](int which, const char* name, const std::vector<std::string>& columns) {
+    return std::make_unique<output::CsvFile>(folder_.file(name), columns,
+                                             resume ? std::optional(resume->tables[which]) : std::nullopt);
+  };
+  const auto series = [&](int which, const char* name) {
+    return std::make_unique<output::VtkSeries>(
+        folder_.file("vtk"), name,
+        resume ? std::optional(static_cast<std::size_t>(resume->series[which])) : std::nullopt);
+  };
+  history_csv_ = table(0, "history.csv", output::history_columns());
+  if (!out.probes.empty()) probes_csv_ = table(1, "probes.csv", output::probe_columns());
+  if (!out.planes.empty()) planes_csv_ = table(2, "planes.csv", output::plane_columns());
+  if (!out.forces.empty()) forces_csv_ = table(3, "forces.csv", output::force_columns());
+  if (s.description.carriers) {
+    if (!s.description.carriers->list.empty()) tracks_csv_ = table(4, "tracks.csv", output::track_columns());
+    if (out.events)
+      events_ = std::make_unique<output::EventsJournal>(folder_.file(journal_name),
+                                                        resume ? std::optional(resume->events) : std::nullopt);
+    if (std::isfinite(carriers_.interval)) carriers_vtk_ = series(1, "carriers");
+  }
+  if (s.state.air && !out.fields.empty()) fields_vtk_ = series(0, "fields");
+  walls_vtk_ = series(2, "walls");
+}
+
+RecorderState Recorder::state() const {
+  RecorderState r;
+  r.statistics_next = statistics_.next;
+  r.carriers_next = carriers_.next;
+  for (const auto& field : fields_) r.fields_next.push_back(field.next);
+  r.history = history_;
+  r.lines = lines_;
+  r.moved = moved_;
+  const output::CsvFile* tables[] = {history_csv_.get(), probes_csv_.get(), planes_csv_.get(), forces_csv_.get(),
+                                     tracks_csv_.get()};
+  for (std::size_t n = 0; n < r.tables.size(); ++n) r.tables[n] = tables[n] ? tables[n]->bytes() : 0;
+  r.events = events_ ? events_->size() : 0;
+  const output::VtkSeries* series[] = {fields_vtk_.get(), carriers_vtk_.get(), walls_vtk_.get()};
+  for (std::size_t n = 0; n < r.series.size(); ++n) r.series[n] = series[n] ? series[n]->entries().size() : 0;
+  return r;
+}
+
+void Recorder::sync() {
+  for (auto* csv : {&history_csv_, &probes_csv_, &planes_csv_, &forces_csv_, &tracks_csv_})
+    if (*csv) (*csv)->sync();
+  if (events_) events_->sync();
+  write_stats();
+}
+
+/// stats.h5 anew: a kill in the middle of HDF5's own writing would leave a file that nobody can read.
+void Recorder::write_stats() {
   std::vector<output::StatsColumn> columns;
   for (std::size_t k = 0; k < output::history_columns().size(); ++k)
     columns.push_back({output::history_columns()[k], output::history_units()[k]});
-  stats_ = std::make_unique<output::StatsFile>(folder.file("stats.h5"), columns);
-  if (!out.probes.empty()) probes_csv_ = table("probes.csv", output::probe_columns());
-  if (!out.planes.empty()) planes_csv_ = table("planes.csv", output::plane_columns());
-  if (!out.forces.empty()) forces_csv_ = table("forces.csv", output::force_columns());
-  if (s.description.carriers) {
-    if (!s.description.carriers->list.empty()) tracks_csv_ = table("tracks.csv", output::track_columns());
-    if (out.events) events_ = std::make_unique<output::EventsFile>(folder.file("events.h5"));
-    if (std::isfinite(carriers_.interval))
-      carriers_vtk_ = std::make_unique<output::VtkSeries>(folder.file("vtk"), "carriers");
+  const auto file = folder_.file("stats.h5"), temporary = folder_.file("stats.h5.part");
+  {
+    output::StatsFile stats(temporary, columns);
+    for (const output::HistoryRow& row : history_) stats.append(output::values(row));
+    stats.flush();
   }
-  walls_vtk_ = std::make_unique<output::VtkSeries>(folder.file("vtk"), "walls");
-  for (const auto& field : out.fields) fields_.push_back({field.every, 0.0});
-  if (s.state.air && !out.fields.empty())
-    fields_vtk_ = std::make_unique<output::VtkSeries>(folder.file("vtk"), "fields");
-  lines_.resize(out.lines.size());
-  walls_vtk_->append(0.0, wall_frame(s));
+  output::finish_file(temporary, file);
+}
+
+void Recorder::forget_journal() {
+  if (!events_) return;
+  events_.reset();
+  std::error_code error;
+  std::filesystem::remove(folder_.file(journal_name), error);
 }
 
 double Recorder::next() const {
@@ -127,7 +234,6 @@ void Recorder::record_statistics(const cases::Simulation& s) {
   const output::HistoryRow row = history_row(s, drops_);
   history_.push_back(row);
   output::append(*history_csv_, row);
-  stats_->append(output::values(row));
   if (!s.state.air) return;
   const cases::Output& out = s.description.output;
   const double t = s.state.time;
@@ -211,8 +317,8 @@ void Recorder::finish(const cases::Simulation& s) {
   write_walls(s);
   for (auto* csv : {&history_csv_, &probes_csv_, &planes_csv_, &forces_csv_, &tracks_csv_})
     if (*csv) (*csv)->flush();
-  stats_->flush();
-  if (events_) events_->flush();
+  write_stats();
+  if (events_) events_->write_events(folder_.file("events.h5"), open_contacts(s, moved_));
 }
 
 }  // namespace puffin::tools

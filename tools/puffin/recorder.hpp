@@ -1,21 +1,18 @@
 #pragma once
 // Writes what a run produces while it goes on: tables, histories, events, VTK series.
 
-#include <map>
 #include <memory>
 #include <optional>
-#include <tuple>
 #include <vector>
 
 #include "cases/build.hpp"
 #include "tools/output/csv_file.hpp"
-#include "tools/output/events_file.hpp"
+#include "tools/output/events_journal.hpp"
 #include "tools/output/output_folder.hpp"
-#include "tools/output/stats_file.hpp"
 #include "tools/output/summary.hpp"
 #include "tools/output/tables.hpp"
 #include "tools/output/vtk_series.hpp"
-#include "tools/puffin/sampling.hpp"
+#include "tools/puffin/recorder_state.hpp"
 
 namespace puffin::tools {
 
@@ -31,7 +28,14 @@ struct Interval {
 
 class Recorder {
  public:
-  Recorder(const cases::Simulation& s, const output::OutputFolder& folder);
+  /// resume: go on with the files in the folder from where they were then, and drop what came later. Throws OutputError
+  /// if they are shorter.
+  Recorder(const cases::Simulation& s, const output::OutputFolder& folder, const RecorderState* resume = nullptr);
+
+  /// For a checkpoint: valid while no more is written.
+  RecorderState state() const;
+  /// Everything so far is on the disk. Renews stats.h5.
+  void sync();
 
   /// The next time at which something is due [s].
   double next() const;
@@ -39,8 +43,10 @@ class Recorder {
   void take_events(const cases::Simulation& s);
   /// Writes whatever is due.
   void record(const cases::Simulation& s);
-  /// Writes what belongs to the end: last frames, lines, the wall map; flushes everything.
+  /// Writes what belongs to the end: last frames, lines, the wall map, events.h5; flushes everything.
   void finish(const cases::Simulation& s);
+  /// Removes what only a resumed run would need.
+  void forget_journal();
 
   const std::vector<output::HistoryRow>& history() const { return history_; }
   const DropReader& drops() const { return drops_; }
@@ -52,12 +58,9 @@ class Recorder {
   void record_fields(const cases::Simulation& s, std::size_t which);
   void write_lines(const cases::Simulation& s);
   void write_walls(const cases::Simulation& s);
+  void write_stats();
+  void open_files(const cases::Simulation& s, const RecorderState* resume);
 
-  struct LineSums {
-    std::vector<PointReading> sum;
-    std::vector<std::int64_t> inside;  // per point: samples in the fluid
-    std::int64_t samples = 0;
-  };
   const output::OutputFolder& folder_;
   DropReader drops_;
   PointReader points_;
@@ -65,12 +68,10 @@ class Recorder {
   std::vector<Interval> fields_;
   std::vector<output::HistoryRow> history_;
   std::unique_ptr<output::CsvFile> history_csv_, probes_csv_, planes_csv_, forces_csv_, tracks_csv_;
-  std::unique_ptr<output::StatsFile> stats_;
-  std::unique_ptr<output::EventsFile> events_;
+  std::unique_ptr<output::EventsJournal> events_;
   std::unique_ptr<output::VtkSeries> fields_vtk_, carriers_vtk_, walls_vtk_;
   std::vector<LineSums> lines_;
-  // Fines moved by contacts that are not over yet, by (a, b, triangle, start).
-  std::map<std::tuple<std::int64_t, std::int64_t, int, double>, coupling::Taken> moved_;
+  MovedFines moved_;
 };
 
 /// One row of the history at this moment.

@@ -192,6 +192,7 @@ output::Summary summarize(const cases::Simulation& s, const Recorder& recorder, 
   r.version = build_info().version + " (" + build_info().commit + ")";
   r.state = facts.state;
   r.message = facts.message;
+  r.warnings = facts.warnings;
   r.simulated_time = s.state.time;
   r.wall_clock = facts.wall_clock;
   r.threads = facts.threads;

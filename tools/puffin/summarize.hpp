@@ -12,6 +12,7 @@ namespace puffin::tools {
 struct RunFacts {
   std::string state;  // finished | diverged | stopped
   std::string message;
+  std::vector<std::string> warnings;
   double wall_clock = 0.0;            // [s]
   double set_up = 0.0, output = 0.0;  // [s]
   int threads = 0;

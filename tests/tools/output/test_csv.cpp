@@ -93,18 +93,31 @@ TEST(Csv, TextWithCommasAndQuotesSurvives) {
   EXPECT_EQ(read_csv(folder / "n.csv").rows.at(0).at(1), name);
 }
 
-TEST(Csv, ResumingKeepsTheRowsUpToThatTimeAndDropsTheTornOne) {
+TEST(Csv, ResumingKeepsTheFirstBytesAndDropsWhatCameLater) {
   const Scratch folder;
+  std::uint64_t keep = 0;
   {
     CsvFile file(folder / "h.csv", {"time", "x"});
-    for (int i = 0; i < 5; ++i) file.append({0.1 * i, 1.0 * i});
+    for (int i = 0; i < 5; ++i) {
+      file.append({0.1 * i, 1.0 * i});
+      if (i == 2) keep = file.bytes();
+    }
   }
   std::ofstream(folder / "h.csv", std::ios::app) << "0.05";  // killed in the middle of a line
   {
-    CsvFile file(folder / "h.csv", {"time", "x"}, 0.2);
+    CsvFile file(folder / "h.csv", {"time", "x"}, keep);
+    EXPECT_EQ(file.bytes(), keep);
     file.append({0.25, 7.0});
   }
   EXPECT_EQ(read_csv(folder / "h.csv").numbers("x"), (std::vector<double>{0, 1, 2, 7}));
+}
+
+TEST(Csv, AFileThatIsShorterOrHasOtherColumnsCannotBeResumed) {
+  const Scratch folder;
+  { CsvFile(folder / "h.csv", {"time", "x"}).flush(); }
+  EXPECT_THROW(CsvFile(folder / "h.csv", {"time", "x"}, 100), OutputError);
+  EXPECT_THROW(CsvFile(folder / "h.csv", {"time", "y"}, 7), OutputError);
+  EXPECT_THROW(CsvFile(folder / "none.csv", {"time", "x"}, 7), OutputError);
 }
 
 TEST(Csv, AFolderThatCannotBeWrittenIsAnOutputError) {

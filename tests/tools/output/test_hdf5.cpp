@@ -3,6 +3,7 @@
 
 #include "tests/tools/output/scratch.hpp"
 #include "tools/output/events_file.hpp"
+#include "tools/output/events_journal.hpp"
 #include "tools/output/output_error.hpp"
 #include "tools/output/stats_file.hpp"
 
@@ -95,21 +96,54 @@ TEST(Events, AnEmptyFileReadsBackEmpty) {
   EXPECT_TRUE(read_events(folder / "events.h5").empty());
 }
 
-TEST(Events, ResumingDropsWhatEndedLater) {
+TEST(EventsJournal, BecomesTheFileOfAnUninterruptedRun) {
   const Scratch folder;
+  constexpr int n = 10000;
   {
-    EventsFile file(folder / "events.h5");
-    for (int i = 0; i < 100; ++i) file.append(std::vector<EventRecord>{event(i)});
+    EventsJournal journal(folder / "events.journal");
+    for (int i = 0; i < n; ++i) journal.append(std::vector<EventRecord>{event(i)});
+    EXPECT_EQ(journal.size(), n);
+    journal.write_events(folder / "one.h5", std::vector<EventRecord>{event(77)});
   }
-  {
-    EventsFile file(folder / "events.h5", 0.0105);  // event 10 ends at 0.01001, event 11 at 0.01101
-    EXPECT_EQ(file.size(), 11);
-    file.append(std::vector<EventRecord>{event(77)});
-  }
-  const std::vector<EventRecord> back = read_events(folder / "events.h5");
-  ASSERT_EQ(back.size(), 12u);
-  expect_same(back[10], event(10));
-  expect_same(back[11], event(77));
+  const std::vector<EventRecord> back = read_events(folder / "one.h5");
+  ASSERT_EQ(back.size(), static_cast<std::size_t>(n) + 1);
+  for (const int i : {0, 4095, 4096, n - 1}) expect_same(back[i], event(i));
+  expect_same(back[n], event(77));
+  // Killed in the middle of a record, resumed at an earlier one.
+  std::ofstream(folder / "events.journal", std::ios::app) << "torn";
+  EventsJournal journal(folder / "events.journal", 6000);
+  for (int i = 6000; i < n; ++i) journal.append(std::vector<EventRecord>{event(i)});
+  journal.write_events(folder / "two.h5", std::vector<EventRecord>{event(77)});
+  EXPECT_TRUE(text_of(folder / "one.h5") == text_of(folder / "two.h5"));
+}
+
+TEST(EventsJournal, OneThatIsTooShortOrForeignIsAnOutputError) {
+  const Scratch folder;
+  { EventsJournal(folder / "events.journal").append(std::vector<EventRecord>{event(1)}); }
+  EXPECT_THROW(EventsJournal(folder / "events.journal", 2), OutputError);
+  std::ofstream(folder / "other") << "something of another program that is long enough to be read";
+  EXPECT_THROW(EventsJournal(folder / "other", 0), OutputError);
+  EXPECT_THROW(EventsJournal("/proc/events.journal"), OutputError);
+}
+
+TEST(EventsJournal, AFullDiskIsAnOutputErrorAndLeavesTheFileBefore) {
+  const Scratch folder;
+  EventsJournal journal(folder / "events.journal");
+  journal.append(std::vector<EventRecord>{event(1)});
+  journal.write_events(folder / "events.h5", {});
+  const std::string before = text_of(folder / "events.h5");
+  const std::vector<EventRecord> some(2000, event(3));
+  journal.append(some);
+  journal.flush();
+  const FullDisk full(1000);
+  EXPECT_THROW(journal.write_events(folder / "events.h5", {}), OutputError);
+  EXPECT_TRUE(text_of(folder / "events.h5") == before);
+  EXPECT_THROW(
+      {
+        journal.append(some);
+        journal.flush();
+      },
+      OutputError);
 }
 
 TEST(Events, WhatIsFlushedCanBeReadBeforeTheFileIsClosed) {
@@ -131,20 +165,6 @@ TEST(Stats, ColumnsReadBack) {
   ASSERT_EQ(rate.size(), 3000u);
   EXPECT_EQ(rate[2999], 1.0 / 3000);
   EXPECT_THROW(read_stats(folder / "stats.h5", "flow"), OutputError);
-}
-
-TEST(Stats, ResumingDropsLaterRows) {
-  const Scratch folder;
-  const std::vector<StatsColumn> columns{{"time", "s"}, {"x", "1"}};
-  {
-    StatsFile file(folder / "stats.h5", columns);
-    for (int i = 0; i < 10; ++i) file.append(std::vector<double>{1.0 * i, 2.0 * i});
-  }
-  {
-    StatsFile file(folder / "stats.h5", columns, 3.0);
-    file.append(std::vector<double>{3.5, -1.0});
-  }
-  EXPECT_EQ(read_stats(folder / "stats.h5", "x"), (std::vector<double>{0, 2, 4, 6, -1}));
 }
 
 TEST(Hdf5, AnotherFormatOrADamagedFileIsAnOutputError) {

@@ -22,7 +22,7 @@ void leave_run(const fs::path& folder, const std::string& state, bool with_check
   if (state == "finished") write_summary(folder / "summary.json", summary);
   if (!with_checkpoint) return;
   fs::create_directories(folder / "checkpoints");
-  write_whole(folder / "checkpoints" / "1", "data");
+  write_whole(folder / checkpoint_name(1), "data");
 }
 
 /// The text of the OutputError of opening the folder; empty if it opens.
@@ -55,10 +55,43 @@ TEST(OutputFolder, AnUnfinishedRunWithoutCheckpointsIsClearedOfItsOwnFilesOnly) 
   const Scratch folder;
   leave_run(folder / "run", "diverged", false);
   write_whole(folder / "run" / "notes.txt", "mine");
-  EXPECT_NE(refusal(folder / "run", true).find("without --resume"), std::string::npos);
   EXPECT_EQ(refusal(folder / "run", false), "");
   EXPECT_FALSE(fs::exists(folder / "run" / "history.csv"));
   EXPECT_TRUE(fs::exists(folder / "run" / "notes.txt"));
+}
+
+TEST(OutputFolder, ResumingARunKilledBeforeItsFirstCheckpointBeginsAnew) {
+  const Scratch folder;
+  leave_run(folder / "run", "running", false);
+  EXPECT_FALSE(OutputFolder(folder / "run", "x", true).resumed());
+  EXPECT_FALSE(fs::exists(folder / "run" / "history.csv"));
+  leave_run(folder / "run", "running", true);
+  EXPECT_TRUE(OutputFolder(folder / "run", "x", true).resumed());
+}
+
+TEST(OutputFolder, ResumingWhereNoRunIsIsRefused) {
+  const Scratch folder;
+  EXPECT_NE(refusal(folder / "run", true).find("without --resume"), std::string::npos);
+}
+
+TEST(OutputFolder, CheckpointsAreListedNewestFirst) {
+  const Scratch folder;
+  fs::create_directories(folder / "checkpoints");
+  for (const int n : {7, 1000001, 12}) write_whole(folder / checkpoint_name(n), "data");
+  for (const char* other : {"events.journal", "checkpoint-.bin", "checkpoint-1x.bin", "checkpoint-000013.bin.part"})
+    write_whole(folder / "checkpoints" / other, "data");
+  const auto files = list_checkpoints(folder.path());
+  ASSERT_EQ(files.size(), 3u);
+  EXPECT_EQ(checkpoint_number(files[0]), 1000001);
+  EXPECT_EQ(checkpoint_number(files[2]), 7);
+}
+
+TEST(OutputFolder, AFolderThatVanishesIsAnErrorAndIsNotMadeAnew) {
+  const Scratch folder;
+  const OutputFolder run(folder / "run", "x");
+  fs::remove_all(folder / "run");
+  EXPECT_THROW(run.file("status.json"), OutputError);
+  EXPECT_FALSE(fs::exists(folder / "run"));
 }
 
 TEST(OutputFolder, AFolderWithFilesOfTheSameNamesThatAreNotOfARunIsRefused) {

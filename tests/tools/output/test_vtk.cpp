@@ -168,18 +168,20 @@ TEST(VtkSeries, TheSameMomentTwiceKeepsTheLastOne) {
   EXPECT_EQ(read_field_frame(folder / series.entries()[0].file).pressure[1], 12.0f);
 }
 
-TEST(VtkSeries, ResumingContinuesAfterTheGivenTime) {
+TEST(VtkSeries, ResumingContinuesAfterTheGivenFrames) {
   const Scratch folder;
   {
     VtkSeries series(folder.path(), "carriers");
     for (const double time : {0.0, 0.1, 0.2, 0.3}) series.append(time, some_carriers());
   }
-  VtkSeries series(folder.path(), "carriers", 0.15);
+  VtkSeries series(folder.path(), "carriers", 2);
+  EXPECT_FALSE(std::filesystem::exists(folder / "carriers_000003.vtp"));
   series.append(0.16, CarrierFrame{});
   const std::vector<SeriesEntry> entries = read_pvd(folder / "carriers.pvd");
   ASSERT_EQ(entries.size(), 3u);
   EXPECT_EQ(entries[2].file, "carriers_000002.vtp");
   EXPECT_TRUE(read_carrier_frame(folder / entries[2].file).position.empty());
+  EXPECT_THROW(VtkSeries(folder.path(), "carriers", 4), OutputError);
 }
 
 TEST(VtkSeries, AFullDiskLeavesTheSeriesAsItWas) {

@@ -1,18 +1,14 @@
 // Whole runs of the program: the ledger closes, the answer does not depend on the threads, failures say where.
 
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
+#include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
-#include <string>
 
+#include "tests/tools/run/small_dose.hpp"
 #include "tools/output/csv_file.hpp"
 #include "tools/output/events_file.hpp"
+#include "tools/output/output_folder.hpp"
 #include "tools/output/summary.hpp"
 #include "tools/output/vtk_series.hpp"
 
@@ -20,86 +16,7 @@ namespace {
 
 using namespace puffin;
 
-/// A small dose in the L-bend, hit at once by air at 36 L/min: in 10 ms carriers leave the pocket and hit walls.
-constexpr const char* small_dose = R"toml(
-schema = 1
-name = "small-dose"
-[geometry]
-generator = "l-bend"
-[geometry.l-bend]
-facet_size = "2 mm"
-[air]
-density = "1.204 kg/m^3"
-viscosity = "1.82e-5 Pa s"
-[[air.boundary]]
-patch = "inlet"
-type = "velocity-inlet"
-flow_rate = [["0 s", "0 L/min"], ["4 ms", "40 L/min"]]
-[[air.boundary]]
-patch = "outlet"
-type = "pressure-outlet"
-[numerics]
-dx = "0.5 mm"
-[carriers]
-count = 1000
-parcel = 10
-diameter = "70 um"
-density = "1520 kg/m^3"
-fines_each = 2000
-fine_mass_ratio = 2e-5
-gravity = [0.0, 0.0, -9.81]
-rotation = false
-[carriers.fill]
-shape = "cylinder"
-at = "pocket"
-gap = 0.2
-[carriers.contact]
-model = "linear"
-restitution = 0.6
-friction = 0.3
-[carriers.adhesion]
-model = "hamaker"
-surface_energy = "3.6e-3 J/m^2"
-cutoff_gap = "0.4 nm"
-[fines]
-micromodels = "lactose-3.6e-3.toml"
-[[fines.scalar]]
-name = "fines"
-diffusion = "1e-6 kg/(m s)"
-[stop]
-time = "10 ms"
-[output]
-statistics = "0.5 ms"
-carriers = "2 ms"
-fields = [{ what = ["velocity", "fines"], region = "slice:y=0", every = "5 ms" }]
-)toml";
-
-class Run : public ::testing::Test {
- protected:
-  void SetUp() override {
-    folder_ = std::filesystem::temp_directory_path() /
-              ("puffin-run-" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_);
-    std::ofstream(folder_ / "case.toml") << small_dose;
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
-  /// Exit code of `puffin run case.toml --out NAME` with more arguments; what it says goes to NAME.log.
-  int run(const std::string& name, const std::string& arguments) const {
-    const std::string command = std::string(PUFFIN_BINARY_DIR) + "/puffin run " + (folder_ / "case.toml").string() +
-                                " --out " + (folder_ / name).string() + " " + arguments + " >/dev/null 2>" +
-                                (folder_ / (name + ".log")).string();
-    return WEXITSTATUS(std::system(command.c_str()));
-  }
-  std::string text(const std::string& name) const {
-    std::ifstream stream(folder_ / name);
-    std::stringstream all;
-    all << stream.rdbuf();
-    return all.str();
-  }
-  std::filesystem::path folder_;
-};
+class Run : public SmallDose {};
 
 // The ledger: every event books what it takes to one rounding, sums are compensated: 1e-10 of the dose leaves four
 // orders of room. FFE + FFW + FFCR + FFCE + in_air = 1 + that error.
@@ -135,11 +52,29 @@ TEST_F(Run, TheLedgerClosesAtEveryOutputAndThreadsDoNotChangeTheAnswer) {
 }
 
 TEST_F(Run, ARunThatDivergesEndsWith5AndSaysWhere) {
-  // A step five times longer than the inlet's speed allows: 0.5 in lattice units.
-  EXPECT_EQ(run("bad", "--set numerics.time_step=4e-6 --until 10ms"), 5);
+  // A step 80 times longer than the inlet's speed allows: 8 in lattice units, and 1 after three retreats.
+  EXPECT_EQ(run("bad", "--set numerics.time_step=64e-6"), 5);
   const output::Summary s = output::read_summary(folder_ / "bad" / "summary.json");
   EXPECT_EQ(s.state, "diverged");
   EXPECT_NE(s.message.find("the first at ["), std::string::npos) << s.message;
+  ASSERT_EQ(s.warnings.size(), 3U);
+  EXPECT_NE(s.warnings[2].find("retreat 3 of 3"), std::string::npos) << s.warnings[2];
+  EXPECT_NE(text("bad/log.txt").find("retreat 1 of 3"), std::string::npos);
+  EXPECT_FALSE(output::list_checkpoints(folder_ / "bad").empty()) << "the last good state is kept";
+}
+
+// 0.5 in lattice units diverges, an eighth of that step does not.
+TEST_F(Run, ARetreatWithASmallerStepSavesARun) {
+  ASSERT_EQ(run("saved", "--set numerics.time_step=4e-6 --until 6ms"), 0) << text("saved.log");
+  const output::Summary s = output::read_summary(folder_ / "saved" / "summary.json");
+  EXPECT_EQ(s.state, "finished");
+  ASSERT_GE(s.warnings.size(), 1U);
+  EXPECT_LT(s.dt_min, 0.51 * s.dt_max);
+  const auto saved = output::read_csv(folder_ / "saved" / "history.csv");
+  const std::vector<double> times = saved.numbers("time");
+  EXPECT_TRUE(std::is_sorted(times.begin(), times.end()));
+  EXPECT_EQ(std::adjacent_find(times.begin(), times.end()), times.end()) << "a retreat must not leave rows twice";
+  for (const double error : saved.numbers("ledger_error")) EXPECT_LT(std::abs(error), 1e-10);
 }
 
 TEST_F(Run, AFinishedRunIsNotOverwritten) {

@@ -1,0 +1,200 @@
+// Air, fines, ledgers and counts in a checkpoint: see checkpoint.hpp for what is left out. A member that is new in one
+// of these structs makes a line here refuse to compile: add its name, and give it to the archive unless the next step
+// makes it anew.
+
+#include <algorithm>
+#include <cmath>
+
+#include "coupling/checkpoint/checkpoint.hpp"
+#include "coupling/checkpoint/hash.hpp"
+
+namespace puffin::coupling {
+
+// Found through the archive's namespace, so not in an unnamed one.
+
+void fields(auto& archive, Is<FirstMotion::Place> auto& place) {
+  auto& [position, settled] = place;
+  archive(position, settled);
+}
+
+void fields(auto& archive, Is<Departure> auto& departure) {
+  auto& [id, time, patch, carriers] = departure;
+  archive(id, time, patch, carriers);
+}
+
+void fields(auto& archive, Is<MomentumBooking> auto& momentum) {
+  auto& [given, taken, rounding, exchanged] = momentum;
+  archive(given, taken, rounding, exchanged);
+}
+
+void fields(auto& archive, Is<Effort> auto& effort) {
+  auto& [air, links, exchange, carriers, fines, scalars, exchanges, exchanges_saved, scalar_steps, scalar_steps_off,
+         rescalings, steps_at_reference_dt] = effort;
+  archive(air, links, exchange, carriers, fines, scalars, exchanges, exchanges_saved, scalar_steps, scalar_steps_off,
+          rescalings, steps_at_reference_dt);
+}
+
+void fields(auto& archive, Is<Extremes> auto& extremes) {
+  auto& [max_speed_lu, min_dt, max_dt, min_tau] = extremes;
+  archive(max_speed_lu, min_dt, max_dt, min_tau);
+}
+
+void fields(auto& archive, Is<Fines> auto& fines) {
+  auto& [initial, left, emitted, stuck, loaded, to_air, to_wall, without_air] = fines;
+  archive(initial, left, emitted, stuck, loaded, to_air, to_wall, without_air);
+}
+
+void fields(auto& archive, Is<Collisions> auto& collisions) {
+  auto& [contacts, carriers, hits, energy, wall, particle, wall_energy, particle_energy] = collisions;
+  archive(contacts, carriers, hits, energy, wall, particle, wall_energy, particle_energy);
+}
+
+void fields(auto& archive, Is<lbm::ScalarBudget> auto& budget) {
+  auto& [left, entered, absorbed_at, air_mismatch, sub_steps, cells_computed, cells_skipped] = budget;
+  archive(left, entered, absorbed_at, air_mismatch, sub_steps, cells_computed, cells_skipped);
+}
+
+void fields(auto& archive, Is<lbm::ScalarFields> auto& scalars) {
+  auto& [amount, reversed, air, work] = scalars;
+  archive(amount, reversed, air, work.computed);  // of the scratch, what the next update compares the air in
+}
+
+namespace {
+
+/// What is neither air nor carriers nor fines.
+void time_fields(auto& archive, Is<State> auto& state) {
+  auto& [time, scale, step_factor, air, drive, inlet_way, cells, touched, carriers, fines, collisions, first_motion,
+         departures, events, stencils, stencils_at, spread_on, samples, spreader, impulse_on_air, momentum, loads,
+         release, scalars, budget, fluxes, routes, steps_since_scalars, seconds_since_scalars, steps_per_scalar_update,
+         airborne, effort, extremes] = state;
+  archive(time, scale.dt, step_factor, inlet_way, collisions, departures, stencils_at.position, stencils_at.radius,
+          impulse_on_air, momentum, steps_since_scalars, seconds_since_scalars, steps_per_scalar_update, airborne,
+          effort, extremes);
+}
+
+/// The lattice belongs to the case; of the air only what moves.
+void air_fields(auto& archive, auto& air) {
+  auto& [rows, links, boundaries, normal, options, populations, moments, force, run_flags, run_of_slot, les, steps,
+         limited, backflow] = air;
+  archive(steps, limited, backflow);
+  std::visit([&](auto& p) { archive(p.next, p.f); }, populations);
+}
+
+/// Lengths of everything that a built state has and a restored one must have too.
+struct Sizes {
+  std::size_t populations = 0, runs = 0, triangles = 0, ids = 0, scalars = 0, slots = 0, patches = 0;
+  explicit Sizes(const State& s)
+      : triangles(s.collisions.hits.size()), ids(s.collisions.contacts.size()), scalars(s.scalars.amount.size()) {
+    if (!s.air) return;
+    populations = std::visit([](const auto& p) { return p.f.size(); }, s.air->populations);
+    runs = s.air->rows.runs().size();
+    slots = s.air->rows.slots();
+    patches = s.budget.left.empty() ? 0 : s.budget.left.front().size();
+  }
+
+  bool fit(const State& s) const {
+    const Sizes now(s);
+    if (now.populations != populations || now.triangles != triangles || now.ids != ids || now.scalars != scalars)
+      return false;
+    const auto by_id = [&](const auto&... arrays) { return ((arrays.size() == ids) && ...); };
+    if (!by_id(s.collisions.carriers, s.fines.initial, s.fines.left, s.fines.emitted, s.first_motion.places()))
+      return false;
+    if (s.collisions.energy.size() != triangles || s.fines.stuck.size() != triangles) return false;
+    if (!s.carriers.carriers.id.empty() && static_cast<std::size_t>(s.carriers.carriers.id.back()) >= ids) return false;
+    if (s.stencils_at.position.size() != s.stencils_at.radius.size()) return false;
+    if (!s.impulse_on_air.empty() && s.impulse_on_air.size() != s.stencils_at.position.size()) return false;
+    return scalars_fit(s);
+  }
+
+ private:
+  bool scalars_fit(const State& s) const {
+    const auto each = [](const auto& lists, std::size_t size) {
+      return std::all_of(lists.begin(), lists.end(), [&](const auto& list) { return list.size() == size; });
+    };
+    const std::size_t none = scalars == 0 ? 0 : slots;
+    if (s.scalars.air.size() != none || s.scalars.work.computed.size() != (scalars == 0 ? 0 : runs)) return false;
+    if (s.budget.left.size() != scalars || s.budget.entered.size() != scalars) return false;
+    return s.budget.absorbed_at.size() == scalars && each(s.scalars.amount, slots) && each(s.budget.left, patches) &&
+           each(s.budget.entered, patches) && each(s.budget.absorbed_at, slots);
+  }
+};
+
+/// The stencils on which the reaction of the last interval will be laid, and a lattice without forces as before it.
+void rebuild_stencils(State& s) {
+  Spreader::clear(s.spread_on, s.air->force);
+  s.spread_on = Stencils();
+  std::vector<int> all(s.stencils_at.position.size());
+  for (std::size_t p = 0; p < all.size(); ++p) all[p] = static_cast<int>(p);
+  s.stencils.build(s.cells, s.stencils_at.position, s.stencils_at.radius, all);
+}
+
+template <class T>
+void hash_in(const std::vector<T>& values, std::uint64_t& hash) {
+  hash = xxh64(std::as_bytes(std::span(values)), hash);
+}
+
+}  // namespace
+
+void save(const State& state, Checkpoint& checkpoint) {
+  ByteWriter time(checkpoint.renew("time"));
+  time_fields(time, state);
+  time(state.first_motion.places(), state.first_motion.time());
+  if (state.air) {
+    ByteWriter air(checkpoint.renew("air"));
+    air_fields(air, *state.air);
+  }
+  save_carriers(state.carriers, checkpoint.renew("carriers"));
+  ByteWriter fines(checkpoint.renew("fines"));
+  fines(state.fines, state.scalars, state.budget);
+}
+
+void restore(const Checkpoint& checkpoint, State& state) {
+  const Sizes sizes(state);
+  ByteReader time(checkpoint.at("time"), "time");
+  time_fields(time, state);
+  std::vector<FirstMotion::Place> places;
+  std::optional<double> first_motion;
+  time(places, first_motion);
+  time.finish();
+  state.first_motion.restore(std::move(places), first_motion);
+  if (state.air) {
+    ByteReader air(checkpoint.at("air"), "air");
+    air_fields(air, *state.air);
+    air.finish();
+    if (state.air->parity() != lbm::Parity::even && state.air->parity() != lbm::Parity::odd)
+      air.fail("names no step of the lattice");
+  }
+  restore_carriers(checkpoint.at("carriers"), state.carriers);
+  ByteReader fines(checkpoint.at("fines"), "fines");
+  fines(state.fines, state.scalars, state.budget);
+  fines.finish();
+  if (!sizes.fit(state)) throw CheckpointDamaged("its sections do not fit each other or this case");
+  const auto sound = [](double value) { return value > 0.0 && std::isfinite(value); };
+  if (!sound(state.scale.dt) || !sound(state.step_factor) || !(state.time >= 0.0) || !std::isfinite(state.time))
+    throw CheckpointDamaged("its time or time step makes no sense");
+  state.events.clear();
+  if (state.air) try {
+      rebuild_stencils(state);
+    } catch (const std::invalid_argument& e) {
+      throw CheckpointDamaged(std::string("its carriers make no sense: ") + e.what());
+    }
+}
+
+std::uint64_t fingerprint(const State& state) {
+  if (!state.air) return 0;
+  const lbm::Air& air = *state.air;
+  std::vector<std::int64_t> numbers{static_cast<std::int64_t>(air.rows.slots()),
+                                    static_cast<std::int64_t>(air.rows.active_cells())};
+  for (const auto& run : air.rows.runs()) {
+    numbers.insert(numbers.end(), {run.first, run.x, run.y, run.z, run.count});
+  }
+  for (const auto* list : {&air.links.inlets, &air.links.outlets})
+    for (const auto& link : *list) numbers.insert(numbers.end(), {link.slot, link.direction, link.patch});
+  std::uint64_t hash = 0;
+  hash_in(numbers, hash);
+  hash_in(air.links.partner, hash);
+  hash_in(air.les, hash);
+  return hash;
+}
+
+}  // namespace puffin::coupling

@@ -1,0 +1,114 @@
+// A restored state goes on bit for bit as the one that was saved; altered bytes are refused, never believed.
+
+#include <gtest/gtest.h>
+#include <oneapi/tbb/global_control.h>
+
+#include <random>
+
+#include "coupling/checkpoint/checkpoint.hpp"
+#include "tests/coupling/checkpoint/coupled_scene.hpp"
+
+namespace puffin::coupling {
+namespace {
+
+using cases::Simulation;
+
+void run(Simulation& sim, double until) {
+  while (sim.state.time < until * (1.0 - 1e-12)) advance(sim.models, until, sim.state);
+}
+
+/// All that a state is, without what it cost.
+Checkpoint saved(const Simulation& sim) {
+  Checkpoint checkpoint;
+  State& state = const_cast<State&>(sim.state);
+  const Effort effort = state.effort;
+  state.effort.air = state.effort.links = state.effort.exchange = 0.0;
+  state.effort.carriers = state.effort.fines = state.effort.scalars = 0.0;
+  save(state, checkpoint);
+  state.effort = effort;
+  return checkpoint;
+}
+
+void expect_equal(const Checkpoint& a, const Checkpoint& b) {
+  ASSERT_EQ(a.sections.size(), b.sections.size());
+  for (std::size_t n = 0; n < a.sections.size(); ++n)
+    EXPECT_TRUE(a.sections[n].bytes == b.sections[n].bytes) << a.sections[n].name;
+}
+
+TEST(Checkpoint, TheSceneHasWhatACheckpointMustKeep) {
+  const auto sim = coupled_simulation();
+  run(*sim, 1e-3);
+  const State& s = sim->state;
+  EXPECT_TRUE(s.airborne);
+  EXPECT_GT(s.fines.to_wall.value(), 0.0);
+  EXPECT_GT(s.collisions.wall, 0.0);
+  EXPECT_FALSE(s.departures.empty());
+  EXPECT_FALSE(s.impulse_on_air.empty());
+  EXPECT_GT(s.effort.rescalings, 0);
+  EXPECT_GT(s.carriers.contacts.size(), s.carriers.free_contacts.size());
+  EXPECT_TRUE(s.first_motion.time().has_value());
+}
+
+TEST(Checkpoint, ARestoredStateGoesOnBitForBit) {
+  const auto whole = coupled_simulation();
+  // Odd numbers of steps and exchanges, before and after the first release, the first departure and a rescaling.
+  for (const double at : {0.011e-3, 0.2e-3, 0.7e-3, 1.3e-3}) {
+    run(*whole, at);
+    const Checkpoint middle = saved(*whole);
+    const auto resumed = coupled_simulation();
+    if (at == 0.7e-3) run(*resumed, 1e-3);  // restoring overwrites whatever was there, forces on the lattice too
+    restore(middle, resumed->state);
+    expect_equal(saved(*resumed), middle);
+    const auto control = coupled_simulation();
+    run(*control, at);
+    const double end = at + 0.25e-3;
+    run(*control, end);
+    {
+      const oneapi::tbb::global_control one(oneapi::tbb::global_control::max_allowed_parallelism, 1);
+      run(*resumed, end);
+    }
+    expect_equal(saved(*resumed), saved(*control));
+  }
+}
+
+TEST(Checkpoint, AlteredBytesAreRefusedOrHarmless) {
+  const auto sim = coupled_simulation();
+  run(*sim, 0.7e-3);
+  const Checkpoint sound = saved(*sim);
+  const auto victim = coupled_simulation();
+  std::mt19937 random(7);
+  int refused = 0;
+  for (int n = 0; n < 600; ++n) {
+    Checkpoint altered = sound;
+    // Small sections are hit as often as large ones, and mostly near their lengths and indices.
+    Section& section = altered.sections[random() % altered.sections.size()];
+    const std::size_t reach = n % 2 ? section.bytes.size() : std::min<std::size_t>(section.bytes.size(), 400);
+    const std::size_t at = random() % reach;
+    if (n % 5 == 0)
+      section.bytes.resize(at);
+    else
+      section.bytes[at] = static_cast<std::byte>(n % 3 ? random() : 0xFF);
+    try {
+      restore(altered, victim->state);
+    } catch (const CheckpointDamaged&) {
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, 150);  // every truncation at least
+  restore(sound, victim->state);
+  expect_equal(saved(*victim), sound);
+}
+
+TEST(Checkpoint, OneOfAnotherLatticeIsRefused) {
+  const auto sim = coupled_simulation();
+  const Checkpoint sound = saved(*sim);
+  cases::Case other = sim->description;
+  other.numerics.dx = 0.2e-3;
+  const auto finer = cases::build(other);
+  EXPECT_THROW(restore(sound, finer->state), CheckpointDamaged);
+  EXPECT_NE(fingerprint(finer->state), fingerprint(sim->state));
+  EXPECT_EQ(fingerprint(coupled_simulation()->state), fingerprint(sim->state));
+}
+
+}  // namespace
+}  // namespace puffin::coupling

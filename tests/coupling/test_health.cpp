@@ -1,0 +1,85 @@
+// What has gone wrong is found, with the carrier, the place and the reason.
+
+#include <gtest/gtest.h>
+
+#include "coupling/health.hpp"
+#include "tests/coupling/checkpoint/coupled_scene.hpp"
+
+namespace puffin::coupling {
+namespace {
+
+class HealthOf : public ::testing::Test {
+ protected:
+  HealthOf() : sim_(coupled_simulation()), health_(sim_->models, sim_->state) {
+    while (sim_->state.time < 0.3e-3) advance(sim_->models, 0.3e-3, sim_->state);
+  }
+  std::string complaint() const {
+    try {
+      health_.check(sim_->models, sim_->state);
+    } catch (const Diverged& e) {
+      return e.what();
+    }
+    return {};
+  }
+  void expect_complaint(const std::string& part) const {
+    EXPECT_NE(complaint().find(part), std::string::npos) << complaint();
+  }
+  dem::Carriers& carriers() { return sim_->state.carriers.carriers; }
+
+  std::unique_ptr<cases::Simulation> sim_;
+  Health health_;
+};
+
+TEST_F(HealthOf, ASoundStateIsGood) { EXPECT_EQ(complaint(), ""); }
+
+TEST_F(HealthOf, ACarrierThatIsNoNumberIsNamed) {
+  carriers().velocity[2][1] = std::numeric_limits<double>::quiet_NaN();
+  expect_complaint("carrier 2 left the finite numbers");
+}
+
+TEST_F(HealthOf, ACarrierFasterThanAnyAirIsNamed) {
+  carriers().velocity[1] = {1e6, 0.0, 0.0};
+  expect_complaint("carrier 1 at [");
+  expect_complaint("limit");
+}
+
+TEST_F(HealthOf, ACarrierOutsideTheWallsIsNamedWithItsPlace) {
+  carriers().position[3] = {2e-3, -1e-4, 1e-3};
+  carriers().rest[3] = dem::Rest::awake;
+  expect_complaint("carrier 3 is outside the walls, at [0.002, -0.0001, 0.001] m");
+}
+
+TEST_F(HealthOf, AnOverlapBeyondTheLimitIsNamed) {
+  auto& contacts = sim_->state.carriers.contacts;
+  const auto live = std::find_if(contacts.begin(), contacts.end(),
+                                 [](const dem::Contact& c) { return c.phase != dem::ContactPhase::free; });
+  ASSERT_NE(live, contacts.end());
+  live->max_overlap = 0.31 * 7e-5;
+  expect_complaint("by 0.31 of its diameter");
+}
+
+TEST_F(HealthOf, FinesThatDoNotAddUpAreNamed) {
+  sim_->state.fines.left[0] += 1e-8 * sim_->state.fines.loaded;
+  expect_complaint("scalar set 0 do not add up");
+}
+
+TEST_F(HealthOf, CarriersThatBeganOutsideAreNotAskedToBeInside) {
+  const auto other = coupled_simulation();
+  other->state.carriers.carriers.position[0] = {-1e-3, 1e-3, 1e-3};
+  const Health health(other->models, other->state);
+  EXPECT_NO_THROW(health.check(other->models, other->state));
+}
+
+TEST_F(HealthOf, TheCarriersIntegratorThatGivesUpIsADivergenceWithAPlace) {
+  carriers().velocity[0][0] = std::numeric_limits<double>::quiet_NaN();
+  carriers().rest[0] = dem::Rest::awake;
+  try {
+    for (int n = 0; n < 3; ++n) advance(sim_->models, 1.0, sim_->state);
+    FAIL() << "nothing was noticed";
+  } catch (const Diverged& e) {
+    EXPECT_NE(std::string(e.what()).find("it was last at ["), std::string::npos) << e.what();
+  }
+}
+
+}  // namespace
+}  // namespace puffin::coupling

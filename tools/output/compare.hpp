@@ -1,0 +1,45 @@
+#pragma once
+// Two finished runs side by side: every number of summary.json, every column of history.csv over time.
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace puffin::output {
+
+/// |a - b| <= absolute + relative * scale; scale: the larger of |a| and |b|, for a history column the largest |value|.
+struct Tolerance {
+  double absolute = 0.0, relative = 0.0;
+};
+
+/// By dotted name: "fines.drug.FFE", "history.static_drop"; a name stands for all that begin with it and a dot, and the
+/// longest that fits counts.
+struct Tolerances {
+  Tolerance standard{0.0, 1e-9};
+  std::map<std::string, Tolerance> named;
+  std::vector<std::string> ignored;
+};
+
+struct Difference {
+  std::string name;
+  std::optional<double> a, b;  // absent: this run has no such number
+  std::optional<double> time;  // of the worst moment of a history column [s]
+  double difference = 0.0;     // |a - b|; infinite if one is absent
+  double allowed = 0.0;
+  bool within() const { return difference <= allowed; }
+};
+
+/// One entry a number, in the order of A's files, then what B alone has. Left out: what says how long a run took, with
+/// how many threads and which version. Histories are compared at A's times, B's values linear between its own, over the
+/// time that both have. Throws OutputError if a folder holds no finished or stopped run.
+std::vector<Difference> compare_runs(const std::filesystem::path& a, const std::filesystem::path& b,
+                                     const Tolerances& tolerances);
+
+/// An aligned table of what differs, and a last line that counts.
+std::string comparison_text(const std::vector<Difference>& differences);
+/// {"ok", "compared", "outside", "rows": [{"name", "a", "b", "time", "difference", "allowed", "within"}]}
+std::string comparison_json(const std::vector<Difference>& differences);
+
+}  // namespace puffin::output

@@ -1,0 +1,115 @@
+#include "tools/puffin/checkpoint_store.hpp"
+
+#include <fstream>
+#include <sstream>
+
+#include "cases/write_case.hpp"
+#include "coupling/checkpoint/checkpoint.hpp"
+#include "coupling/checkpoint/hash.hpp"
+#include "tools/output/csv_file.hpp"
+#include "tools/output/output_error.hpp"
+#include "tools/puffin/build_info.hpp"
+#include "tools/puffin/console.hpp"
+
+namespace puffin::tools {
+
+namespace {
+
+template <class T>
+std::uint64_t hash_of(const T& values, std::uint64_t seed = 0) {
+  return coupling::xxh64(std::as_bytes(std::span(values)), seed);
+}
+
+std::string text_of(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::stringstream all;
+  all << stream.rdbuf();
+  return all.str();
+}
+
+/// The first line in which two texts differ, of each.
+std::pair<std::string, std::string> first_difference(const std::string& a, const std::string& b) {
+  std::istringstream left(a), right(b);
+  for (std::string x, y;;) {
+    const bool more_x = static_cast<bool>(std::getline(left, x)), more_y = static_cast<bool>(std::getline(right, y));
+    if (!more_x) x = "(nothing)";
+    if (!more_y) y = "(nothing)";
+    if (x != y || (!more_x && !more_y)) return {x.substr(0, x.find("  #")), y.substr(0, y.find("  #"))};
+  }
+}
+
+}  // namespace
+
+std::string identity_of(const cases::Simulation& s) {
+  cases::Case c = s.description;
+  c.numerics.threads = 0;
+  c.stop.time = 0.0;
+  c.output.checkpoint = {};
+  c.reference.clear();
+  c.provenance.clear();
+  std::ostringstream text;
+  text << "program = " << build_info().version << '\n' << cases::write_resolved(c);
+  text << "dx = " << output::shortest(s.dx) << '\n';
+  text << "time step at the reference speed = " << output::shortest(s.models.time_step.reference_dt) << '\n';
+  std::uint64_t surface = hash_of(s.surface.patches.of_triangle);
+  for (const auto& v : s.surface.mesh.vertices)
+    surface = coupling::xxh64(std::as_bytes(std::span(v.data(), 3)), surface);
+  for (const auto& t : s.surface.mesh.triangles) surface = hash_of(t, surface);
+  text << "surface = " << surface << '\n';
+  text << "lattice = " << coupling::fingerprint(s.state) << '\n';
+  if (c.fines && !c.fines->micromodels.empty())
+    text << "micro-models = " << hash_of(text_of(c.fines->micromodels)) << '\n';
+  return text.str();
+}
+
+CheckpointStore::CheckpointStore(const cases::Simulation& s, const output::OutputFolder& folder)
+    : folder_(folder),
+      identity_(identity_of(s)),
+      interval_(s.description.output.checkpoint.wall),
+      keep_(s.description.output.checkpoint.keep) {
+  for (const auto& file : output::list_checkpoints(folder.path()))
+    next_number_ = std::max(next_number_, output::checkpoint_number(file) + 1);
+}
+
+bool CheckpointStore::due() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - last_).count() >= interval_;
+}
+
+void CheckpointStore::write(coupling::Checkpoint& checkpoint) {
+  coupling::ByteWriter{checkpoint.renew("case")}(identity_);
+  coupling::write_checkpoint(folder_.file(output::checkpoint_name(next_number_++)), checkpoint);
+  last_ = std::chrono::steady_clock::now();
+  const auto files = output::list_checkpoints(folder_.path());
+  std::error_code error;  // one that stays does no harm
+  for (std::size_t n = static_cast<std::size_t>(keep_); n < files.size(); ++n) std::filesystem::remove(files[n], error);
+}
+
+void CheckpointStore::require_same_case(const coupling::Checkpoint& checkpoint) const {
+  std::string identity;
+  coupling::ByteReader(checkpoint.at("case"), "case")(identity);
+  if (identity == identity_) return;
+  const auto [theirs, ours] = first_difference(identity, identity_);
+  throw coupling::CheckpointForeign("it belongs to another case: there '" + theirs + "', now '" + ours +
+                                    "'; resume with the case file, --preset and --set of the first part, or begin anew "
+                                    "with another --out");
+}
+
+void CheckpointStore::restore_newest(std::size_t longest, const std::function<void(const coupling::Checkpoint&)>& use) {
+  std::string damages;
+  for (const auto& file : output::list_checkpoints(folder_.path())) try {
+      const coupling::Checkpoint checkpoint = coupling::read_checkpoint(file, longest);
+      require_same_case(checkpoint);
+      use(checkpoint);
+      log_info("going on from " + file.string());
+      return;
+    } catch (const coupling::CheckpointDamaged& e) {
+      log_warning(file.string() + " is damaged: " + e.what() + "; trying the one before it");
+      damages += "\n  " + file.string() + ": " + e.what();
+    } catch (const coupling::CheckpointForeign& e) {
+      throw coupling::CheckpointForeign(file.string() + " cannot be used: " + e.what());
+    }
+  throw output::OutputError("no checkpoint of " + folder_.path().string() +
+                            " is sound; begin anew with another --out:" + damages);
+}
+
+}  // namespace puffin::tools

@@ -1,0 +1,36 @@
+#pragma once
+// How far a run is: on the terminal and in status.json.
+
+#include <chrono>
+
+#include "cases/build.hpp"
+#include "tools/output/output_folder.hpp"
+#include "tools/puffin/recorder.hpp"
+
+namespace puffin::tools {
+
+/// A line that is rewritten on a terminal, plain lines elsewhere, nothing if quiet; status.json always.
+class Progress {
+ public:
+  Progress(const cases::Simulation& s, const output::OutputFolder& folder, bool quiet);
+
+  void update(const Recorder& recorder, const std::vector<std::string>& warnings, bool now);
+  void finish() const;
+
+ private:
+  const char* phase() const;
+  double work(double t) const;
+
+  const cases::Simulation& sim_;
+  const output::OutputFolder& folder_;
+  double end_;  // [s]
+  bool quiet_, terminal_;
+  std::chrono::steady_clock::time_point start_;
+  double last_ = -1e9;  // [s] of wall clock
+  double begun_at_;     // work done before, by the part of the run that this one resumes
+};
+
+/// status.json of a run that has only just got its folder, so that what follows is known to be a run.
+void announce(const output::OutputFolder& folder, const cases::Case& c);
+
+}  // namespace puffin::tools

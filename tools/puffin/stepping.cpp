@@ -1,0 +1,177 @@
+#include "tools/puffin/stepping.hpp"
+
+#include <cmath>
+#include <csignal>
+
+#include "tools/puffin/console.hpp"
+#include "tools/puffin/exit_codes.hpp"
+
+namespace puffin::tools {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr int most_retreats = 3;
+constexpr std::int64_t steps_between_checks = 100, steps_between_memories = 500;  // air steps; see Stepping::steps
+
+volatile std::sig_atomic_t received_signal = 0;
+
+/// While it lives, SIGTERM and Ctrl-C are only noted, and a file that grows too long is an error of its writer.
+class Signals {
+ public:
+  Signals() {
+    received_signal = 0;
+    const auto note = [](int number) { received_signal = number; };
+    terminate_ = std::signal(SIGTERM, note);
+    interrupt_ = std::signal(SIGINT, note);
+  }
+  ~Signals() {
+    std::signal(SIGTERM, terminate_);
+    std::signal(SIGINT, interrupt_);
+  }
+  Signals(const Signals&) = delete;
+  Signals& operator=(const Signals&) = delete;
+
+ private:
+  void (*terminate_)(int);
+  void (*interrupt_)(int);
+};
+
+}  // namespace
+
+static void fields(auto& archive, coupling::Is<RunMemory> auto& memory) {
+  auto& [wall_clock, retreats, warnings] = memory;
+  archive(wall_clock, retreats, warnings);
+}
+
+Stepping::Stepping(cases::Simulation& s, const output::OutputFolder& folder, bool quiet, Clock::time_point start,
+                   double walltime)
+    : s_(s), folder_(folder), start_(start), walltime_(walltime), health_(s.models, s.state), store_(s, folder) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow: its writer says so
+  if (folder.resumed()) {
+    coupling::save(s.state, good_);  // its size, before anything moved, bounds what a checkpoint can be
+    const std::size_t longest = 4 * good_.size() + (std::size_t{1} << 30);
+    store_.restore_newest(longest, [&](const coupling::Checkpoint& checkpoint) {
+      coupling::restore(checkpoint, s_.state);
+      coupling::ByteReader reader(checkpoint.at("run"), "run");
+      reader(memory_);
+      reader.finish();
+      const RecorderState outputs = restored(checkpoint.at("outputs"));
+      recorder_ = std::make_unique<Recorder>(s_, folder_, &outputs);
+    });
+  } else {
+    recorder_ = std::make_unique<Recorder>(s_, folder_);
+  }
+  progress_ = std::make_unique<Progress>(s, folder, quiet);
+  checked_ = remembered_ = steps();
+  remember(good_);
+  if (!folder.resumed()) write_checkpoint(good_);
+}
+
+/// Air steps, or steps of the carriers where there is no lattice.
+std::int64_t Stepping::steps() const { return s_.state.air ? s_.state.air->steps : s_.state.carriers.statistics.steps; }
+
+double Stepping::wall_clock() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+bool Stepping::finished() const {
+  if (s_.state.time >= s_.description.stop.time * (1.0 - 1e-12)) return true;
+  if (!s_.description.stop.when_empty || !s_.description.carriers) return false;
+  if (s_.state.carriers.carriers.size() > 0) return false;
+  if (s_.state.scalars.scalars() == 0) return true;
+  const auto ledger = coupling::ledger(s_.state.fines, s_.state.scalars, s_.state.budget, 0);
+  return ledger.in_air < 1e-6 * ledger.loaded;
+}
+
+void Stepping::step() {
+  coupling::advance(s_.models, std::min(recorder_->next(), s_.description.stop.time), s_.state);
+  const auto writing = Clock::now();
+  recorder_->take_events(s_);
+  recorder_->record(s_);
+  progress_->update(*recorder_, memory_.warnings, false);
+  output_seconds_ += std::chrono::duration<double>(Clock::now() - writing).count();
+}
+
+/// Health, memory and checkpoints. All of it at fixed numbers of steps, so that a retreat does not depend on the
+/// clock.
+void Stepping::look_after() {
+  if (steps() - checked_ < steps_between_checks) return;
+  health_.check(s_.models, s_.state);
+  checked_ = steps();
+  if (steps() - remembered_ < steps_between_memories) return;
+  remember(good_);
+  remembered_ = steps();
+  if (store_.due()) write_checkpoint(good_);
+}
+
+void Stepping::remember(coupling::Checkpoint& checkpoint) const {
+  coupling::save(s_.state, checkpoint);
+  RunMemory now = memory_;
+  now.wall_clock += wall_clock();
+  coupling::ByteWriter{checkpoint.renew("run")}(now);
+  save(recorder_->state(), checkpoint.renew("outputs"));
+}
+
+void Stepping::write_checkpoint(coupling::Checkpoint& checkpoint) {
+  const auto writing = Clock::now();
+  recorder_->sync();
+  store_.write(checkpoint);
+  output_seconds_ += std::chrono::duration<double>(Clock::now() - writing).count();
+}
+
+bool Stepping::retreat(const std::string& why) {
+  if (memory_.retreats >= most_retreats) return false;
+  const double failed_at = s_.state.time;
+  coupling::restore(good_, s_.state);
+  ++memory_.retreats;
+  s_.state.step_factor = std::pow(0.5, memory_.retreats);
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "retreat %d of %d from t = %.6g s to %.6g s with 1/%d of the time step: ", memory_.retreats,
+                most_retreats, failed_at, s_.state.time, 1 << memory_.retreats);
+  memory_.warnings.push_back(text + why);
+  log_warning(memory_.warnings.back());
+  const RecorderState outputs = restored(good_.at("outputs"));
+  recorder_.reset();  // its files are closed before they are cut
+  recorder_ = std::make_unique<Recorder>(s_, folder_, &outputs);
+  checked_ = remembered_ = steps();
+  return true;
+}
+
+Ending Stepping::run() {
+  const Signals signals;
+  for (;;) try {
+      recorder_->record(s_);
+      while (!finished()) {
+        step();
+        look_after();
+        if (received_signal == 0 && wall_clock() <= walltime_) continue;
+        health_.check(s_.models, s_.state);
+        remember(good_);
+        write_checkpoint(good_);
+        return {"stopped",
+                received_signal == SIGINT    ? "interrupted"
+                : received_signal == SIGTERM ? "terminated"
+                                             : "wall time reached",
+                received_signal == SIGINT ? interrupted : stopped};
+      }
+      health_.check(s_.models, s_.state);
+      return {};
+    } catch (const coupling::Diverged& e) {
+      if (retreat(e.what())) continue;
+      write_checkpoint(good_);
+      return {"diverged", e.what(), diverged};
+    }
+}
+
+void Stepping::finish(const Ending& ending) {
+  recorder_->finish(s_);
+  progress_->update(*recorder_, memory_.warnings, true);
+  progress_->finish();
+  if (ending.code == ok) recorder_->forget_journal();
+  output::Status last = output::read_status(folder_.file("status.json"));
+  last.state = ending.state;
+  output::write_status(folder_.file("status.json"), last);
+}
+
+}  // namespace puffin::tools

@@ -1,0 +1,72 @@
+#pragma once
+// The loop of a run: steps, outputs, health, checkpoints, and the way back from a failure.
+
+#include <chrono>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "coupling/checkpoint/checkpoint.hpp"
+#include "coupling/health.hpp"
+#include "tools/puffin/checkpoint_store.hpp"
+#include "tools/puffin/progress.hpp"
+#include "tools/puffin/recorder.hpp"
+
+namespace puffin::tools {
+
+/// What a run remembers of itself across checkpoints.
+struct RunMemory {
+  double wall_clock = 0.0;            // [s] of the parts before this one
+  std::int32_t retreats = 0;          // from failures
+  std::vector<std::string> warnings;  // one a retreat
+};
+
+/// How the loop came to its end.
+struct Ending {
+  std::string state = "finished", message;  // as in summary.json
+  int code = 0;
+};
+
+class Stepping {
+ public:
+  /// resume: go on from the newest checkpoint of the folder. `start`: of the program, from which `walltime` [s] counts.
+  /// Throws as CheckpointStore and Recorder.
+  Stepping(cases::Simulation& s, const output::OutputFolder& folder, bool quiet,
+           std::chrono::steady_clock::time_point start, double walltime);
+
+  /// Steps until the end, a signal, the wall time or a failure. After a failure the last good state is restored and the
+  /// time step halved, at most three times; every hundred steps the health of the state is asked for, and every five
+  /// hundred it is remembered. Before it returns a code other than 0 there is a checkpoint of the last good state.
+  Ending run();
+  /// Writes what belongs to the end of the outputs.
+  void finish(const Ending& ending);
+
+  const Recorder& recorder() const { return *recorder_; }
+  const RunMemory& memory() const { return memory_; }
+  double output_seconds() const { return output_seconds_; }
+
+ private:
+  bool finished() const;
+  void step();
+  void look_after();
+  void remember(coupling::Checkpoint& checkpoint) const;
+  void write_checkpoint(coupling::Checkpoint& checkpoint);
+  bool retreat(const std::string& why);
+  double wall_clock() const;
+  std::int64_t steps() const;
+
+  cases::Simulation& s_;
+  const output::OutputFolder& folder_;
+  std::chrono::steady_clock::time_point start_;
+  double walltime_;
+  coupling::Health health_;
+  CheckpointStore store_;
+  RunMemory memory_;
+  std::unique_ptr<Recorder> recorder_;
+  std::unique_ptr<Progress> progress_;
+  coupling::Checkpoint good_;  // the last good state
+  std::int64_t checked_ = 0, remembered_ = 0;
+  double output_seconds_ = 0.0;
+};
+
+}  // namespace puffin::tools
