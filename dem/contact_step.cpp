@@ -32,6 +32,7 @@
 #include "dem/linear_contact.hpp"
 #include "dem/meeting.hpp"
 #include "dem/normal_force.hpp"
+#include "dem/open_contacts.hpp"
 
 namespace puffin::dem {
 namespace {
@@ -148,9 +149,7 @@ void end_contact(double time, Cluster& cluster, Touch& touch) {
   ended.triangle = c.triangle;
   ended.normal_speed = c.normal_speed, ended.tangential_speed = c.tangential_speed;
   const double mass = b != nullptr ? 0.5 * (a.single_mass + b->single_mass) : a.single_mass;
-  const double speed2 =
-      c.normal_speed * c.normal_speed + (b != nullptr ? c.tangential_speed * c.tangential_speed : 0.0);
-  ended.energy = 0.5 * mass * speed2;
+  ended.energy = impact_energy(c, mass);
   ended.max_force = c.max_force, ended.max_overlap = c.max_overlap;
   cluster.ended.push_back(ended);
   touch.memory = Contact{};

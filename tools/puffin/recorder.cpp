@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dem/open_contacts.hpp"
 #include "tools/puffin/frames_of.hpp"
 
 namespace puffin::tools {
@@ -83,8 +84,12 @@ void Recorder::take_events(const cases::Simulation& s) {
       const auto& c = events.begun[n];
       moved_[{c.a, c.b, c.triangle, c.time}] = taken[n];
     }
+  write_events(events.ended);
+}
+
+void Recorder::write_events(std::span<const dem::ContactEnded> ended) {
   std::vector<output::EventRecord> records;
-  for (const auto& c : events.ended) {
+  for (const auto& c : ended) {
     output::EventRecord r;
     r.time_start = c.time_start;
     r.time_end = c.time_end;
@@ -212,7 +217,10 @@ void Recorder::finish(const cases::Simulation& s) {
   for (auto* csv : {&history_csv_, &probes_csv_, &planes_csv_, &forces_csv_, &tracks_csv_})
     if (*csv) (*csv)->flush();
   stats_->flush();
-  if (events_) events_->flush();
+  if (events_) {
+    write_events(dem::open_contacts(s.state.carriers, s.state.time));  // those that last to the end of the run
+    events_->flush();
+  }
 }
 
 }  // namespace puffin::tools

@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <tuple>
 #include <vector>
 
@@ -46,6 +47,7 @@ class Recorder {
   const DropReader& drops() const { return drops_; }
 
  private:
+  void write_events(std::span<const dem::ContactEnded> ended);
   void record_statistics(const cases::Simulation& s);
   void sample_line(const cases::Simulation& s, std::size_t k);
   void record_carriers(const cases::Simulation& s);

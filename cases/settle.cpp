@@ -1,0 +1,84 @@
+#include "cases/settle.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "dem/advance.hpp"
+
+namespace puffin::cases {
+namespace {
+
+using Vec3 = Eigen::Vector3d;
+constexpr double longest = 0.3;  // [s]
+constexpr double step = 2e-5;    // [s] between two looks at the whole bed
+
+void damp(dem::Surfaces& surfaces) {
+  std::visit([](auto& contact) { contact.restitution = std::min(contact.restitution, 0.3); }, surfaces.contact);
+}
+
+double lowest_of(const std::vector<dem::Carrier>& carriers, const Vec3& up) {
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const auto& c : carriers) lowest = std::min(lowest, up.dot(c.position) - c.radius);
+  return lowest;
+}
+
+}  // namespace
+
+SettledBed settle(dem::Models models, const dem::Walls& walls, const std::vector<dem::Carrier>& carriers) {
+  if (!(models.gravity.norm() > 0.0))
+    throw std::invalid_argument("carriers.fill: a bed settles under gravity; give carriers.gravity");
+  damp(models.carrier);
+  damp(models.wall);
+  models.on_wall = dem::OnWall::bounce;
+  models.integration.sleep = true;
+  dem::State state;
+  dem::add(carriers, state);
+  const std::vector<dem::Load> loads(carriers.size());
+  dem::Events events;
+  SettledBed bed;
+  while (!bed.at_rest && state.time < longest) {
+    dem::advance(step, models, walls, loads, state, events);
+    events.clear();
+    bed.at_rest = dem::count_asleep(state) == carriers.size();
+  }
+  bed.positions = state.carriers.position;
+  bed.time = state.time;
+  return bed;
+}
+
+double bulk_density(const std::vector<dem::Carrier>& carriers, const Vec3& up) {
+  double mass = 0.0, width = 0.0;
+  for (const auto& c : carriers) mass += c.mass, width += 2.0 * c.radius / static_cast<double>(carriers.size());
+  const Vec3 first = up.unitOrthogonal(), second = up.cross(first);
+  const double floor = lowest_of(carriers, up);
+  std::map<std::pair<long, long>, double> top;
+  for (const auto& c : carriers) {
+    const std::pair column(std::lround(first.dot(c.position) / width), std::lround(second.dot(c.position) / width));
+    double& height = top[column];
+    height = std::max(height, up.dot(c.position) + c.radius - floor);
+  }
+  double volume = 0.0;
+  for (const auto& [column, height] : top) volume += width * width * height;
+  return mass / volume;
+}
+
+void loosen(double wanted, const Vec3& up, std::vector<dem::Carrier>& carriers) {
+  const double settled = bulk_density(carriers, up);
+  if (wanted > 1.02 * settled)
+    throw std::invalid_argument("carriers.fill.bulk_density: the bed settles at " +
+                                std::to_string(std::lround(settled)) +
+                                " kg/m^3 with these contacts; give at most that");
+  for (int pass = 0; pass < 8; ++pass) {
+    const double factor = bulk_density(carriers, up) / wanted;
+    if (std::abs(factor - 1.0) < 1e-3 || factor < 1.0) break;
+    const double floor = lowest_of(carriers, up);
+    for (auto& c : carriers) c.position += (factor - 1.0) * (up.dot(c.position) - c.radius - floor) * up;
+  }
+}
+
+}  // namespace puffin::cases

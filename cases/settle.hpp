@@ -1,0 +1,32 @@
+#pragma once
+// A bed that has fallen into place: the dose is let go in still, empty space before the run.
+
+#include <vector>
+
+#include "dem/carriers.hpp"
+#include "dem/models.hpp"
+#include "dem/walls.hpp"
+
+namespace puffin::cases {
+
+/// What came of it.
+struct SettledBed {
+  std::vector<Eigen::Vector3d> positions;  // [m], in the order of the carriers
+  double time = 0.0;                       // [s] it took
+  bool at_rest = false;                    // else it was stopped at the longest time
+};
+
+/// Lets `carriers` fall under the models' gravity, contacts and adhesion until all of them sleep, at most 0.3 s.
+/// Restitution is lowered to 0.3, so that it does not take long; nothing else differs from the run that follows.
+/// Needs gravity: throws std::invalid_argument without.
+SettledBed settle(dem::Models models, const dem::Walls& walls, const std::vector<dem::Carrier>& carriers);
+
+/// Mass over the space between the bed's floor and its surface [kg/m^3]. Columns of one mean diameter, along `up`, that
+/// are covered by a carrier; each from the lowest point of the bed to the highest point of a carrier in the column.
+double bulk_density(const std::vector<dem::Carrier>& carriers, const Eigen::Vector3d& up);
+
+/// Lifts each carrier over the lowest point in proportion to its height so that the bed has the bulk density `wanted`
+/// [kg/m^3]. Throws std::invalid_argument if the bed is looser than that already.
+void loosen(double wanted, const Eigen::Vector3d& up, std::vector<dem::Carrier>& carriers);
+
+}  // namespace puffin::cases
