@@ -1,5 +1,6 @@
 #include "cases/settle.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -17,8 +18,17 @@ using Vec3 = Eigen::Vector3d;
 constexpr double longest = 0.3;  // [s]
 constexpr double step = 2e-5;    // [s] between two looks at the whole bed
 
-void damp(dem::Surfaces& surfaces) {
-  std::visit([](auto& contact) { contact.restitution = std::min(contact.restitution, 0.3); }, surfaces.contact);
+/// Soft, damped, without adhesion; friction as given, and enough rolling resistance for a heap to stand.
+dem::Surfaces soft(const dem::Surfaces& surfaces) {
+  dem::LinearContact law;
+  std::visit(
+      [&](const auto& contact) {
+        law.restitution = std::min(contact.restitution, 0.3);
+        law.friction = contact.friction;
+        law.rolling_friction = std::max(contact.rolling_friction, 0.1);
+      },
+      surfaces.contact);
+  return {law, dem::NoAdhesion{}};
 }
 
 double lowest_of(const std::vector<dem::Carrier>& carriers, const Vec3& up) {
@@ -32,8 +42,8 @@ double lowest_of(const std::vector<dem::Carrier>& carriers, const Vec3& up) {
 SettledBed settle(dem::Models models, const dem::Walls& walls, const std::vector<dem::Carrier>& carriers) {
   if (!(models.gravity.norm() > 0.0))
     throw std::invalid_argument("carriers.fill: a bed settles under gravity; give carriers.gravity");
-  damp(models.carrier);
-  damp(models.wall);
+  models.carrier = soft(models.carrier);
+  models.wall = soft(models.wall);
   models.on_wall = dem::OnWall::bounce;
   models.integration.sleep = true;
   dem::State state;
@@ -73,12 +83,16 @@ void loosen(double wanted, const Vec3& up, std::vector<dem::Carrier>& carriers) 
     throw std::invalid_argument("carriers.fill.bulk_density: the bed settles at " +
                                 std::to_string(std::lround(settled)) +
                                 " kg/m^3 with these contacts; give at most that");
-  for (int pass = 0; pass < 8; ++pass) {
-    const double factor = bulk_density(carriers, up) / wanted;
-    if (std::abs(factor - 1.0) < 1e-3 || factor < 1.0) break;
-    const double floor = lowest_of(carriers, up);
-    for (auto& c : carriers) c.position += (factor - 1.0) * (up.dot(c.position) - c.radius - floor) * up;
-  }
+  if (settled <= wanted) return;
+  // The volume is linear in the factor on the heights: two values tell the factor.
+  const double floor = lowest_of(carriers, up);
+  const auto lifted = [&](double factor) {
+    std::vector<dem::Carrier> bed = carriers;
+    for (auto& c : bed) c.position += (factor - 1.0) * (up.dot(c.position) - c.radius - floor) * up;
+    return bed;
+  };
+  const double one = 1.0 / settled, two = 1.0 / bulk_density(lifted(2.0), up);
+  carriers = lifted(1.0 + (1.0 / wanted - one) / (two - one));
 }
 
 }  // namespace puffin::cases

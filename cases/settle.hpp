@@ -16,8 +16,10 @@ struct SettledBed {
   bool at_rest = false;                    // else it was stopped at the longest time
 };
 
-/// Lets `carriers` fall under the models' gravity, contacts and adhesion until all of them sleep, at most 0.3 s.
-/// Restitution is lowered to 0.3, so that it does not take long; nothing else differs from the run that follows.
+/// Lets `carriers` fall under the models' gravity until all of them sleep, at most 0.3 s. The spheres are soft (linear
+/// law, 2 % overlap), their restitution is at most 0.3 and their rolling friction at least 0.1, so that a heap stands;
+/// friction is the models'. Adhesion is left out: with it a carrier would stay where it first touches and the bed would
+/// be a loose web; how loose a bed is, is said by its bulk density.
 /// Needs gravity: throws std::invalid_argument without.
 SettledBed settle(dem::Models models, const dem::Walls& walls, const std::vector<dem::Carrier>& carriers);
 
