@@ -17,6 +17,8 @@ namespace {
 using Vec3 = Eigen::Vector3d;
 constexpr double longest = 0.3;  // [s]
 constexpr double step = 2e-5;    // [s] between two looks at the whole bed
+constexpr double still = 2e-3;   // [m/s] such a speed carries a sphere 0.2 um high
+constexpr int looks = 100;       // that must find the whole bed still
 
 /// Soft, damped, without adhesion; friction as given, and enough rolling resistance for a heap to stand.
 dem::Surfaces soft(const dem::Surfaces& surfaces) {
@@ -51,10 +53,14 @@ SettledBed settle(dem::Models models, const dem::Walls& walls, const std::vector
   const std::vector<dem::Load> loads(carriers.size());
   dem::Events events;
   SettledBed bed;
+  int found_still = 0;
   while (!bed.at_rest && state.time < longest) {
     dem::advance(step, models, walls, loads, state, events);
     events.clear();
-    bed.at_rest = dem::count_asleep(state) == carriers.size();
+    double fastest = 0.0;
+    for (const Vec3& v : state.carriers.velocity) fastest = std::max(fastest, v.norm());
+    found_still = fastest < still ? found_still + 1 : 0;
+    bed.at_rest = found_still >= looks || dem::count_asleep(state) == carriers.size();
   }
   bed.positions = state.carriers.position;
   bed.time = state.time;
