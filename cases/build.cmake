@@ -7,4 +7,5 @@ set(PUFFIN_BUILD_SOURCES
   initial_air.cpp
   inlet_profile.cpp
   opening.cpp
-  point_field.cpp)
+  point_field.cpp
+  settle.cpp)

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 #include <stdexcept>
 
@@ -7,6 +8,8 @@
 #include "cases/derived.hpp"
 #include "cases/dose.hpp"
 #include "cases/micromodel_file.hpp"
+#include "cases/settle.hpp"
+#include "cases/size_distribution.hpp"
 
 namespace puffin::cases {
 
@@ -18,24 +21,52 @@ dem::Friction friction_of(const Friction& f) {
   return dem::SpeedFriction{v.stick, v.slip, v.limit, v.slip_speed, v.limit_speed};
 }
 
-dem::Surfaces surfaces_of(const Contact& contact, const Adhesion& adhesion) {
+/// The keys that all adhesion models share.
+template <class Law>
+Law adhesion_of(const Adhesion& a, std::uint64_t seed) {
+  Law law;
+  law.surface_energy = a.surface_energy;
+  law.parcel_scaling = a.parcel_scaling == ParcelScaling::ddpm     ? dem::ParcelScaling::ddpm
+                       : a.parcel_scaling == ParcelScaling::energy ? dem::ParcelScaling::energy
+                                                                   : dem::ParcelScaling::mass;
+  law.spread = {a.sigma, seed};
+  return law;
+}
+
+/// `carrier`: the carrier's own constants; `contact`: those of what it touches (the same between carriers), with the
+/// restitution and friction of the pair.
+dem::Surfaces surfaces_of(const Contact& carrier, const Contact& contact, const Adhesion& adhesion,
+                          std::uint64_t seed) {
   dem::Surfaces surfaces;
-  dem::LinearContact linear;
-  linear.restitution = contact.restitution;
-  linear.friction = friction_of(contact.friction);
-  linear.rolling_friction = contact.rolling_friction;
-  linear.stiffness = contact.stiffness;
-  linear.max_overlap = contact.max_overlap;
-  surfaces.contact = linear;
+  if (contact.model == ContactModel::hertz || adhesion.model == AdhesionModel::jkr) {
+    dem::HertzContact hertz;
+    hertz.restitution = contact.restitution;
+    hertz.friction = friction_of(contact.friction);
+    hertz.rolling_friction = contact.rolling_friction;
+    hertz.partner = {contact.youngs_modulus, contact.poisson};
+    hertz.body =
+        carrier.youngs_modulus > 0.0 ? dem::Elasticity{carrier.youngs_modulus, carrier.poisson} : hertz.partner;
+    surfaces.contact = hertz;
+  } else {
+    dem::LinearContact linear;
+    linear.restitution = contact.restitution;
+    linear.friction = friction_of(contact.friction);
+    linear.rolling_friction = contact.rolling_friction;
+    linear.stiffness = contact.stiffness;
+    linear.max_overlap = contact.max_overlap;
+    surfaces.contact = linear;
+  }
   if (adhesion.model == AdhesionModel::hamaker) {
-    dem::Hamaker hamaker;
-    hamaker.surface_energy = adhesion.surface_energy;
+    auto hamaker = adhesion_of<dem::Hamaker>(adhesion, seed);
     hamaker.hamaker = adhesion.hamaker;
     hamaker.cutoff_gap = adhesion.cutoff_gap;
-    hamaker.parcel_scaling = adhesion.parcel_scaling == ParcelScaling::ddpm     ? dem::ParcelScaling::ddpm
-                             : adhesion.parcel_scaling == ParcelScaling::energy ? dem::ParcelScaling::energy
-                                                                                : dem::ParcelScaling::mass;
     surfaces.adhesion = hamaker;
+  } else if (adhesion.model == AdhesionModel::dmt) {
+    auto dmt = adhesion_of<dem::Dmt>(adhesion, seed);
+    dmt.cutoff_gap = adhesion.cutoff_gap;
+    surfaces.adhesion = dmt;
+  } else if (adhesion.model == AdhesionModel::jkr) {
+    surfaces.adhesion = adhesion_of<dem::Jkr>(adhesion, seed);
   }
   return surfaces;
 }
@@ -73,6 +104,22 @@ Floor floor_of(const Surface& surface, const std::string& patch, const Vec3& gra
   return floor;
 }
 
+/// Openings: those of the air; where there is no lattice to tell, also `inlet`, `outlet` and every patch tagged by hand
+/// that is not said to be a wall (by its boundary, by the names wall, pocket, obstacle, or as the place of the fill).
+bool is_opening(const Case& c, const coupling::PatchDrive& drive) {
+  if (drive.is_inlet || drive.is_outlet) return true;
+  if (c.air.model == AirModel::lbm) return false;
+  const std::string& name = drive.patch;
+  if (name == "inlet" || name == "outlet") return true;
+  if (name == "wall" || name == "pocket" || name == "obstacle") return false;
+  for (const Boundary& b : c.air.boundaries)
+    if (b.patch == name) return false;
+  if (c.carriers->fill)
+    if (const auto* at = std::get_if<std::string>(&c.carriers->fill->at); at != nullptr && *at == name) return false;
+  return std::any_of(c.geometry.patches.begin(), c.geometry.patches.end(),
+                     [&](const Patch& p) { return p.name == name; });
+}
+
 Dose dose_of(const Simulation& s) {
   const Carriers& c = *s.description.carriers;
   DoseSpec spec;
@@ -82,20 +129,28 @@ Dose dose_of(const Simulation& s) {
   spec.carriers = c.count;
   spec.parcel = c.parcel;
   spec.diameter = c.diameter;
+  if (c.sizes) {
+    spec.sizes = draw_diameters(size_table(*c.sizes), c.count / c.parcel, s.description.numerics.seed);
+    spec.diameter = *std::max_element(spec.sizes.begin(), spec.sizes.end());
+  }
   spec.density = c.density;
   spec.gap = c.fill->gap;
-  spec.jitter = c.fill->jitter;
+  // A bed that settles must not fall as the columns of a lattice: the stack above it is shaken as far as its gaps
+  // allow.
+  spec.jitter = c.fill->shape == FillShape::settled ? 0.5 * spec.gap : c.fill->jitter;
   spec.seed = s.description.numerics.seed;
   spec.extent_of = c.fill->extent_of;
   spec.file = c.fill->file;
-  if (const auto* patch = std::get_if<std::string>(&c.fill->at)) {
+  if (c.fill->shape == FillShape::file) {
+    spec.floor_diameter = 0.0;
+  } else if (const auto* patch = std::get_if<std::string>(&c.fill->at)) {
     const Floor floor = floor_of(s.surface, *patch, c.gravity);
     spec.floor = floor.centre;
     spec.floor_diameter = floor.diameter;
   } else {
     spec.floor = std::get<Vec3>(c.fill->at);
     // A cylinder as high as it is wide, if nothing bounds it.
-    const double pitch = (1.0 + spec.gap) * parcel_diameter(c.diameter, c.parcel);
+    const double pitch = (1.0 + spec.gap) * parcel_diameter(spec.diameter, c.parcel);
     spec.floor_diameter = pitch * std::cbrt(4.0 / std::numbers::pi * static_cast<double>(c.count) / c.parcel) * 1.1;
   }
   return place_dose(
@@ -103,13 +158,29 @@ Dose dose_of(const Simulation& s) {
       [&](const Vec3& x) { return s.tree->closest(x).distance; });
 }
 
+/// Lets the dose fall, with every opening closed, and says what came of it.
+void settle_dose(Simulation& s, std::vector<dem::Carrier>& carriers) {
+  const Carriers& c = *s.description.carriers;
+  const coupling::MeshWalls closed(s.tree);
+  const SettledBed bed = settle(s.models.carriers, closed, carriers);
+  for (std::size_t p = 0; p < carriers.size(); ++p) carriers[p].position = bed.positions[p];
+  const Vec3 up = -c.gravity.normalized();
+  if (c.fill->bulk_density) loosen(*c.fill->bulk_density, up, carriers);
+  char text[160];
+  std::snprintf(text, sizeof text, "; settled in %.3g ms%s, bulk density %.0f kg/m^3%s", 1e3 * bed.time,
+                bed.at_rest ? "" : " (not all at rest)", bulk_density(carriers, up),
+                c.fill->bulk_density ? " after loosening" : "");
+  s.dose += text;
+}
+
 }  // namespace
 
 void build_carriers(Simulation& s) {
   const Carriers& c = *s.description.carriers;
   coupling::Models& m = s.models;
-  m.carriers.carrier = surfaces_of(c.contact, c.adhesion);
-  m.carriers.wall = surfaces_of(c.wall_contact, c.wall_adhesion);
+  const std::uint64_t seed = s.description.numerics.seed;
+  m.carriers.carrier = surfaces_of(c.contact, c.contact, c.adhesion, seed);
+  m.carriers.wall = surfaces_of(c.contact, c.wall_contact, c.wall_adhesion, seed);
   m.carriers.gravity = c.gravity;
   m.carriers.rotation = c.rotation;
   m.carriers.on_wall = c.wall_contact.on_wall == OnWall::stick ? dem::OnWall::stick : dem::OnWall::bounce;
@@ -119,20 +190,22 @@ void build_carriers(Simulation& s) {
                                        : coupling::DragLaw(coupling::SchillerNaumann{});
   m.volume_fraction =
       c.volume_fraction == VolumeFraction::none ? coupling::VolumeFraction::none : coupling::VolumeFraction::in_drag;
+  m.lift = c.lift == Lift::none          ? coupling::Lift::none
+           : c.lift == Lift::saffman_mei ? coupling::Lift::saffman_mei
+                                         : coupling::Lift::saffman_magnus;
+  m.pressure_gradient = c.pressure_gradient;
+  m.near_wall = c.near_wall;
   m.two_way = c.two_way;
   m.carriers_start = c.start;
+  m.settling = c.fill.has_value();
 
-  // Openings of the geometry: those of the air, and by name where there is no air to tell.
   std::vector<int> openings;
   m.opening_of_triangle.assign(s.surface.mesh.triangles.size(), -1);
   for (std::size_t t = 0; t < s.surface.mesh.triangles.size(); ++t) {
     const int patch = s.surface.patches.of_triangle[t];
-    const auto& drive = m.patches[patch];
-    const bool named = s.description.air.model != AirModel::lbm && (drive.patch == "inlet" || drive.patch == "outlet");
-    if (c.outside == Outside::remove && (drive.is_inlet || drive.is_outlet || named)) {
-      openings.push_back(static_cast<int>(t));
-      m.opening_of_triangle[t] = patch;
-    }
+    if (c.outside != Outside::remove || !is_opening(s.description, m.patches[patch])) continue;
+    openings.push_back(static_cast<int>(t));
+    m.opening_of_triangle[t] = patch;
   }
   m.walls = std::make_shared<const coupling::MeshWalls>(s.tree, openings);
 
@@ -151,6 +224,7 @@ void build_carriers(Simulation& s) {
       carrier.mass = c.parcel * bare * (1.0 + c.fines_each * c.fine_mass_ratio);
       carriers.push_back(carrier);
     }
+    if (c.fill->shape == FillShape::settled) settle_dose(s, carriers);
   } else {
     s.dose = std::to_string(c.list.size()) + " carriers listed one by one";
     for (const ListedCarrier& listed : c.list) {
@@ -159,8 +233,11 @@ void build_carriers(Simulation& s) {
       carrier.position = listed.position;
       carrier.velocity = listed.velocity;
       carrier.spin = c.rotation ? listed.spin : Vec3(Vec3::Zero());
-      carrier.radius = carrier.single_radius = 0.5 * listed.diameter;
-      carrier.mass = carrier_mass(listed.diameter, listed.density) * (1.0 + c.fines_each * c.fine_mass_ratio);
+      carrier.radius = 0.5 * parcel_diameter(listed.diameter, c.parcel);
+      carrier.single_radius = 0.5 * listed.diameter;
+      carrier.carriers = c.parcel;
+      carrier.mass =
+          c.parcel * carrier_mass(listed.diameter, listed.density) * (1.0 + c.fines_each * c.fine_mass_ratio);
       carriers.push_back(carrier);
     }
   }

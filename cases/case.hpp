@@ -157,6 +157,7 @@ struct Fill {
   double jitter = 0.0;                                   // random offset over the parcel diameter
   std::optional<std::array<std::int64_t, 2>> extent_of;  // {count, parcel}: outer size of that cube, ours spread in it
   std::string file;                                      // shape = file: CSV of centres x, y, z
+  std::optional<double> bulk_density;                    // shape = settled: lift the bed to it [kg/m^3]
   bool operator==(const Fill&) const = default;
 };
 struct ListedCarrier {
@@ -164,6 +165,17 @@ struct ListedCarrier {
   double diameter = 0.0;                                                       // [m]
   double density = 0.0;                                                        // [kg/m^3]
   bool operator==(const ListedCarrier&) const = default;
+};
+/// Diameters that differ from carrier to carrier.
+enum class SizeLaw { log_normal, rosin_rammler, table };
+struct SizeDistribution {
+  SizeLaw law = SizeLaw::log_normal;
+  bool by_volume = true;                 // shares of volume (sieves, laser diffraction), not of number
+  double median = 0.0, sigma = 0.0;      // log-normal: [m], deviation of ln d
+  double scale = 0.0, exponent = 0.0;    // Rosin-Rammler: share above d = exp(-(d/scale)^exponent); [m]
+  std::string file;                      // table: CSV diameter [m], share of all below it (0 to 1)
+  double smallest = 0.0, largest = 0.0;  // cut off beyond [m]
+  bool operator==(const SizeDistribution&) const = default;
 };
 enum class Drag { none, schiller_naumann, di_felice, beetstra };
 enum class VolumeFraction { none, drag, averaged };
@@ -199,16 +211,18 @@ struct Contact {
 };
 struct Adhesion {
   AdhesionModel model = AdhesionModel::none;
-  double surface_energy = 0.0;  // gamma of ONE surface [J/m^2]
+  double surface_energy = 0.0;  // gamma of ONE surface [J/m^2]; the median where sigma > 0
+  double sigma = 0.0;           // of ln(gamma) over the carriers; 0: all alike
   double hamaker = 0.0;         // [J]
   double cutoff_gap = 0.0;      // d0 [m]; gamma = H / (24 pi d0^2)
   ParcelScaling parcel_scaling = ParcelScaling::ddpm;
   bool operator==(const Adhesion&) const = default;
 };
 struct Carriers {
-  std::int64_t count = 0;        // single carriers
-  int parcel = 1;                // carriers a parcel
-  double diameter = 0.0;         // [m]
+  std::int64_t count = 0;  // single carriers
+  int parcel = 1;          // carriers a parcel
+  double diameter = 0.0;   // [m]; with `sizes`: of the mean volume
+  std::optional<SizeDistribution> sizes;
   double density = 0.0;          // [kg/m^3]
   double fines_each = 0.0;       // fines on one carrier at the start
   double fine_mass_ratio = 0.0;  // mass of a fine over the mass of a carrier
@@ -218,6 +232,8 @@ struct Carriers {
   Drag drag = Drag::schiller_naumann;
   VolumeFraction volume_fraction = VolumeFraction::drag;
   Lift lift = Lift::none;
+  bool pressure_gradient = false;  // force of the air's pressure gradient
+  bool near_wall = false;          // drag grows beside walls
   bool rotation = true;
   bool two_way = true;
   double start = 0.0;  // [s] carriers are held until then

@@ -40,19 +40,21 @@ constexpr std::array les_models{word(Les::none, "none", yes), word(Les::smagorin
                                 word(Les::vreman, "vreman", no)};
 constexpr std::array precisions{word(Precision::float32, "float", yes), word(Precision::float64, "double", yes)};
 constexpr std::array fill_shapes{word(FillShape::cylinder, "cylinder", yes), word(FillShape::cube, "cube", yes),
-                                 word(FillShape::settled, "settled", no), word(FillShape::file, "file", no)};
+                                 word(FillShape::settled, "settled", yes), word(FillShape::file, "file", yes)};
+constexpr std::array size_laws{word(SizeLaw::log_normal, "log-normal", yes),
+                               word(SizeLaw::rosin_rammler, "rosin-rammler", yes), word(SizeLaw::table, "table", yes)};
 constexpr std::array drags{word(Drag::none, "none", yes), word(Drag::schiller_naumann, "schiller-naumann", yes),
-                           word(Drag::di_felice, "di-felice", no), word(Drag::beetstra, "beetstra", no)};
+                           word(Drag::di_felice, "di-felice", yes), word(Drag::beetstra, "beetstra", yes)};
 constexpr std::array volume_fractions{word(VolumeFraction::none, "none", yes), word(VolumeFraction::drag, "drag", yes),
                                       word(VolumeFraction::averaged, "averaged", no)};
-constexpr std::array lifts{word(Lift::none, "none", yes), word(Lift::saffman_mei, "saffman-mei", no),
-                           word(Lift::saffman_magnus, "saffman-magnus", no)};
-constexpr std::array outsides{word(Outside::remove, "remove", yes), word(Outside::bounce, "bounce", no)};
-constexpr std::array contact_models{word(ContactModel::linear, "linear", yes), word(ContactModel::hertz, "hertz", no)};
-constexpr std::array on_walls{word(OnWall::bounce, "bounce", yes), word(OnWall::stick, "stick", no)};
+constexpr std::array lifts{word(Lift::none, "none", yes), word(Lift::saffman_mei, "saffman-mei", yes),
+                           word(Lift::saffman_magnus, "saffman-magnus", yes)};
+constexpr std::array outsides{word(Outside::remove, "remove", yes), word(Outside::bounce, "bounce", yes)};
+constexpr std::array contact_models{word(ContactModel::linear, "linear", yes), word(ContactModel::hertz, "hertz", yes)};
+constexpr std::array on_walls{word(OnWall::bounce, "bounce", yes), word(OnWall::stick, "stick", yes)};
 constexpr std::array adhesion_models{word(AdhesionModel::none, "none", yes),
-                                     word(AdhesionModel::hamaker, "hamaker", yes), word(AdhesionModel::dmt, "dmt", no),
-                                     word(AdhesionModel::jkr, "jkr", no)};
+                                     word(AdhesionModel::hamaker, "hamaker", yes), word(AdhesionModel::dmt, "dmt", yes),
+                                     word(AdhesionModel::jkr, "jkr", yes)};
 constexpr std::array parcel_scalings{word(ParcelScaling::ddpm, "ddpm", yes), word(ParcelScaling::energy, "energy", yes),
                                      word(ParcelScaling::mass, "mass", yes)};
 constexpr std::array wall_depositions{word(WallDeposition::none, "none", yes),
@@ -65,8 +67,8 @@ constexpr std::array scalar_walls{word(ScalarWall::reflect, "reflect", yes), wor
 const Features features{.wall_model = no,
                         .inlet_turbulence = yes,
                         .body_force_file = yes,
-                        .velocity_friction = no,
-                        .rolling_friction = no,
+                        .velocity_friction = yes,
+                        .rolling_friction = yes,
                         .fixed_values = no};
 
 // clang-format off
@@ -80,6 +82,7 @@ template <> std::span<const Choice> choices<WallScheme>() { return walls; }
 template <> std::span<const Choice> choices<Les>() { return les_models; }
 template <> std::span<const Choice> choices<Precision>() { return precisions; }
 template <> std::span<const Choice> choices<FillShape>() { return fill_shapes; }
+template <> std::span<const Choice> choices<SizeLaw>() { return size_laws; }
 template <> std::span<const Choice> choices<Drag>() { return drags; }
 template <> std::span<const Choice> choices<VolumeFraction>() { return volume_fractions; }
 template <> std::span<const Choice> choices<Lift>() { return lifts; }

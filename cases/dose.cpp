@@ -37,6 +37,10 @@ void check(const DoseSpec& s) {
   if (!(s.density > 0.0 && std::isfinite(s.density))) refuse("the density must be greater than 0");
   if (!(s.gap >= 0.0 && std::isfinite(s.gap))) refuse("the gap must not be negative: spheres would overlap");
   if (!(s.jitter >= 0.0 && std::isfinite(s.jitter))) refuse("the jitter must not be negative");
+  if (!s.sizes.empty() && static_cast<std::int64_t>(s.sizes.size()) != s.carriers / s.parcel)
+    refuse(std::to_string(s.sizes.size()) + " sizes for " + std::to_string(s.carriers / s.parcel) + " parcels");
+  for (const double size : s.sizes)
+    if (!(size > 0.0) || size > s.diameter * (1.0 + 1e-9)) refuse("a size must lie between 0 and the largest diameter");
   if (!s.floor.allFinite()) refuse("the floor's centre must be finite");
   if (s.shape == DoseShape::cylinder && !(s.floor_diameter > 0.0 && std::isfinite(s.floor_diameter)))
     refuse("a cylinder needs a floor with a diameter greater than 0");
@@ -89,7 +93,9 @@ void read_file(const DoseSpec& spec, double default_diameter, Dose& dose) {
       throw std::runtime_error("dose: " + spec.file + ":" + std::to_string(number) +
                                ": expected x,y,z or x,y,z,diameter, numbers in metres");
     dose.positions.emplace_back(row[0], row[1], row[2]);
-    dose.radius.push_back(0.5 * (row.size() == 4 ? row[3] : default_diameter));
+    const std::size_t at = dose.radius.size();
+    const double drawn = at < spec.sizes.size() ? parcel_diameter(spec.sizes[at], spec.parcel) : default_diameter;
+    dose.radius.push_back(0.5 * (row.size() == 4 ? row[3] : drawn));
   }
   const auto expected = static_cast<std::size_t>(spec.carriers / spec.parcel);
   if (dose.positions.size() != expected)
@@ -148,10 +154,12 @@ Dose place_dose(const DoseSpec& spec, const std::function<bool(const Vec3&)>& in
     jitter(std::min(spec.jitter * d, stack.free_play), spec.seed, stack.sites);
     dose.positions = std::move(stack.sites);
     dose.radius.assign(dose.positions.size(), 0.5 * d);
+    for (std::size_t i = 0; i < spec.sizes.size(); ++i)
+      dose.radius[i] = 0.5 * parcel_diameter(spec.sizes[i], spec.parcel);
     dose.layers = stack.layers;
-    const double mass =
-        static_cast<double>(spec.carriers) * spec.density * std::numbers::pi / 6.0 * std::pow(spec.diameter, 3);
-    dose.bulk_density = mass / stack.volume;
+    double cubes = 0.0;  // of the parcels' diameters
+    for (const double r : dose.radius) cubes += 8.0 * r * r * r;
+    dose.bulk_density = spec.density * std::numbers::pi / 6.0 * cubes / stack.volume;
     shape = stack.shape;
   }
   double bottom = dose.layers > 0 ? spec.floor.z() : std::numeric_limits<double>::infinity();
@@ -164,7 +172,8 @@ Dose place_dose(const DoseSpec& spec, const std::function<bool(const Vec3&)>& in
   require_in_fluid(spec, dose, inside, clearance);
   dose.description = std::to_string(dose.positions.size()) +
                      (spec.parcel > 1 ? " parcels of " + std::to_string(spec.parcel) + " carriers, " : " carriers, ") +
-                     text("%.4g um each: ", d * 1e6) + shape + text(", %.3g mm high", dose.height * 1e3) +
+                     (spec.sizes.empty() ? text("%.4g um each: ", d * 1e6) : text("up to %.4g um: ", d * 1e6)) + shape +
+                     text(", %.3g mm high", dose.height * 1e3) +
                      (dose.layers > 0 ? text(", bulk density %.0f kg/m^3", dose.bulk_density) : "");
   return dose;
 }

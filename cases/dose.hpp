@@ -19,6 +19,7 @@ struct DoseSpec {
   std::int64_t carriers = 0;  // carriers in all; a multiple of `parcel`
   std::int64_t parcel = 1;    // carriers a parcel
   double diameter = 0.0;      // [m] of one carrier
+  std::vector<double> sizes;  // [m] of one carrier of each parcel, none above `diameter`; empty: all have `diameter`
   double density = 0.0;       // [kg/m^3] of a carrier; for the bulk density in the description
   double gap = 0.2;           // between neighbours, over the parcel's diameter
   double jitter = 0.0;  // largest random offset in each coordinate, over the parcel's diameter; never above gap / 2

@@ -11,9 +11,11 @@
 #include <cstdio>
 
 #include "coupling/drag_limit.hpp"
+#include "coupling/field_forces.hpp"
 #include "coupling/state.hpp"
 #include "coupling/volume_fraction.hpp"
 #include "dem/advance.hpp"
+#include "dem/open_contacts.hpp"
 
 namespace puffin::coupling {
 
@@ -163,7 +165,9 @@ void find_loads(const Models& models, double interval, State& s) {
     interpolate(s.stencils, s.air->moments, count, s.samples);
     for (std::size_t p = 0; p < count; ++p) velocity[p] = s.samples.velocity_lu[p] * s.scale.speed();
   } else if (models.frozen_air) {
-    for (std::size_t p = 0; p < count; ++p) velocity[p] = models.frozen_air(c.position[p]);
+    // At the middle of the way, so that a vortex or a shear is followed to second order.
+    for (std::size_t p = 0; p < count; ++p)
+      velocity[p] = models.frozen_air(c.position[p] + 0.5 * interval * c.velocity[p]);
   }
   s.loads.assign(count, dem::Load{});
   if (!s.air && !models.frozen_air) return;
@@ -177,6 +181,12 @@ void find_loads(const Models& models, double interval, State& s) {
     largest_fraction = solid_fraction(s.stencils, volume, s.scale.dx, s.spreader, solid);
   }
   drag_coefficients(models.drag, models.air, which, velocity, c.velocity, c.single_radius, c.carriers, solid, beta);
+  if (models.frozen_air) {  // the coefficient too at the middle: with the slip that half the interval will have left
+    std::vector<Vec3> middle(count);
+    for (std::size_t p = 0; p < count; ++p)
+      middle[p] = velocity[p] + (c.velocity[p] - velocity[p]) * std::exp(-0.5 * interval * beta[p] / c.mass[p]);
+    drag_coefficients(models.drag, models.air, which, velocity, middle, c.single_radius, c.carriers, solid, beta);
+  }
   if (s.air)
     for (const int p : s.stencils.outside()) beta[p] = 0.0;  // no air there: nothing drags
   const bool harmless = !volume.empty() && load_bound(largest_fraction, beta, volume, interval, s.scale) <= 1.0;
@@ -188,6 +198,7 @@ void find_loads(const Models& models, double interval, State& s) {
     s.loads[p].air_velocity = velocity[p];
     s.loads[p].drag = beta[p];
   }
+  add_field_forces(models, interval, s);
 }
 
 /// Takes carriers out that have left through an opening. One that has left through a wall is a failure.
@@ -206,6 +217,8 @@ void remove_departed(const Models& models, State& s) {
     emitted.push_back(c.id[p]);
   }
   if (gone.empty()) return;
+  const auto open = dem::open_contacts(s.carriers, s.time, gone);
+  s.events.ended.insert(s.events.ended.end(), open.begin(), open.end());
   mark_emitted(emitted, s.fines);
   dem::remove(gone, s.carriers);  // what they owe the air is still in impulse_on_air, by their old places
 }
@@ -230,12 +243,17 @@ void step_carriers(const Models& models, double interval, State& s) {
   }
 }
 
+/// Contacts count from here on.
+std::optional<double> counted_from(const Models& models, const State& s) {
+  return models.settling ? s.first_motion.time() : std::optional(0.0);
+}
+
 void move_fines(const Models& models, std::int64_t steps, double interval, State& s) {
   if (!models.fines || !s.air) return;
   {
     const Stopwatch watch(s.effort.fines);
     const double before = s.fines.to_air[0].value() + s.fines.to_air[1].value() + s.fines.to_air[2].value();
-    s.release.by_contacts(s.events.begun, s.first_motion.time(), s.carriers.carriers, *models.fines, s.cells, s.fines,
+    s.release.by_contacts(s.events.begun, counted_from(models, s), s.carriers.carriers, *models.fines, s.cells, s.fines,
                           s.scalars);
     if (models.fines->drag_detach) {
       const auto& c = s.carriers.carriers;
@@ -293,7 +311,9 @@ void advance(const Models& models, double until, State& s) {
   const int most =
       s.carriers.carriers.size() == 0 || resting ? models.steps_per_exchange_asleep : models.steps_per_exchange;
   const int steps = std::clamp(static_cast<int>(std::ceil((until - s.time) / s.scale.dt - 1e-9)), 1, most);
-  const double interval = steps * s.scale.dt;
+  // Without a lattice nothing ties the interval to whole steps: it ends where it is asked to.
+  const double whole = steps * s.scale.dt;
+  const double interval = !s.air && until > s.time ? std::min(whole, until - s.time) : whole;
   if (resting && s.carriers.carriers.size() > 0) s.effort.exchanges_saved += steps / models.steps_per_exchange - 1;
 
   if (s.air) {
@@ -319,10 +339,11 @@ void advance(const Models& models, double until, State& s) {
     }
     step_carriers(models, interval, s);
     s.first_motion.update(s.carriers.carriers, s.time + interval);
-    count_collisions(s.events.begun, s.carriers.carriers, s.first_motion.time(), s.collisions);
+    count_collisions(s.events.begun, s.carriers.carriers, counted_from(models, s), s.collisions);
     if (s.air && models.two_way) {
       s.impulse_on_air.resize(s.carriers.carriers.size());
       for (std::size_t p = 0; p < s.impulse_on_air.size(); ++p) s.impulse_on_air[p] = -s.carriers.drag_impulse[p];
+      add_field_reaction(interval, s);
     }
   }
   s.time += interval;

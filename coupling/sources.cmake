@@ -7,6 +7,7 @@ set(PUFFIN_COUPLING_SOURCES
   collisions.cpp
   drag.cpp
   drag_limit.cpp
+  field_forces.cpp
   fines.cpp
   first_motion.cpp
   health.cpp

@@ -14,6 +14,7 @@
 #include "coupling/drag.hpp"
 #include "coupling/fines.hpp"
 #include "coupling/first_motion.hpp"
+#include "coupling/lift.hpp"
 #include "coupling/mesh_walls.hpp"
 #include "coupling/release_fines.hpp"
 #include "coupling/scale.hpp"
@@ -53,10 +54,14 @@ struct Models {
   TimeStepRule time_step;
   DragLaw drag = SchillerNaumann{};
   VolumeFraction volume_fraction = VolumeFraction::in_drag;
+  Lift lift = Lift::none;
+  bool pressure_gradient = false;  // force of the air's own pressure gradient on the carriers
+  bool near_wall = false;          // drag grows beside walls
   dem::Models carriers;
   std::shared_ptr<const MeshWalls> walls;
   std::vector<int> opening_of_triangle;  // per triangle of the surface: patch if it is an opening, else -1
   bool two_way = true;
+  bool settling = true;         // a dose settles first: its contacts before the first motion are not counted
   double carriers_start = 0.0;  // [s] until then carriers are held
   std::optional<micromodels::FinesModels> fines;
   std::vector<double> diffusion;  // per scalar: Gamma / rho [m^2/s]
@@ -116,6 +121,7 @@ struct State {
   StencilPlaces stencils_at;  // what they were built from
   Stencils spread_on;         // those on which forces lie
   AirSamples samples;
+  AirGradients gradients;  // only where a model needs them
   Spreader spreader;
   std::vector<Vec3> impulse_on_air;  // [N s] by place in `stencils`, to be given to the air in the next exchange
   MomentumBooking momentum;          // sums since the start [N s]

@@ -6,9 +6,11 @@
 #include <stdexcept>
 #include <string>
 
+#include "dem/adhesion_spread.hpp"
 #include "dem/contact_step.hpp"
 #include "dem/first_touch.hpp"
 #include "dem/free_flight.hpp"
+#include "dem/friction.hpp"
 #include "dem/linear_contact.hpp"
 
 namespace puffin::dem {
@@ -18,6 +20,7 @@ using Eigen::Vector3d;
 constexpr double never = std::numeric_limits<double>::infinity();
 constexpr std::int64_t most_steps = 50'000'000;  // something must be wrong
 constexpr double longest_way_near_walls = 0.2;   // in radii, between two looks
+constexpr double rayleigh_part = 0.2;            // of the Rayleigh time: the longest sub-step of a Hertz contact
 
 /// Contact forces of all touches, then the accelerations; returns the largest next sub-step. `live`: something touches.
 double evaluate_all(double h, double time, double horizon, const Rules& rules, Cluster& cluster, bool& live) {
@@ -147,11 +150,21 @@ Touch& add_touch(std::int32_t a, std::int32_t b, const Rules& rules, Cluster& cl
   const Body& first = cluster.bodies[a];
   if (b >= 0) {
     const Body& second = cluster.bodies[b];
+    const Spread& spread = rules.carrier.spread;
+    const double strength = std::sqrt(adhesion_factor(spread.seed, first.id, spread.sigma) *
+                                      adhesion_factor(spread.seed, second.id, spread.sigma));
     touch.pair = pair_law(rules.carrier, first.radius, first.single_radius, second.radius, second.single_radius,
-                          1.0 / (first.inverse_mass + second.inverse_mass));
+                          1.0 / (first.inverse_mass + second.inverse_mass), strength);
+    if (rules.carrier.hertz)
+      touch.pair.longest_step = rayleigh_part * rules.carrier.rayleigh *
+                                std::sqrt(std::min(first.mass / first.radius, second.mass / second.radius));
     touch.reach = first.radius + second.radius;
   } else {
-    touch.pair = pair_law(rules.wall, first.radius, first.single_radius, never, never, first.mass);
+    const Spread& spread = rules.wall.spread;
+    touch.pair = pair_law(rules.wall, first.radius, first.single_radius, never, never, first.mass,
+                          adhesion_factor(spread.seed, first.id, spread.sigma));
+    if (rules.wall.hertz)
+      touch.pair.longest_step = rayleigh_part * rules.wall.rayleigh * std::sqrt(first.mass / first.radius);
     touch.reach = first.radius;
     touch.next_wall = cluster.bodies[a].first_wall;
     cluster.bodies[a].first_wall = static_cast<std::int32_t>(cluster.touches.size()) - 1;
@@ -164,8 +177,8 @@ void set_dashpots(const Rules& rules, Touch& touch) {
   const double k = touch.memory.stiffness, mass = touch.pair.mass;
   touch.eta = 2.0 * law.zeta * std::sqrt(mass * k);
   touch.eta_pull = 2.0 * law.zeta * std::sqrt(mass * touch.pair.pull_stiffness);
-  const double slip_mass = rules.rotation ? 2.0 / 7.0 * mass : mass;  // of a solid sphere at its surface
-  touch.eta_slip = 2.0 * law.zeta * std::sqrt(slip_mass * law.tangential_ratio * k);
+  if (!law.hertz) touch.memory.slip_stiffness = law.tangential_ratio * k;
+  touch.eta_slip = slip_dashpot(law, rules.rotation, mass, touch.memory.slip_stiffness);
 }
 
 void match_walls(std::int32_t b, double time, const Rules& rules, Cluster& cluster) {

@@ -21,6 +21,7 @@ struct Contact {
   std::int32_t next_a = -1, next_b = -1;  // next contact of a, of b; -1: the last
   double stiffness = 0.0;                 // k, chosen at first touch [N/m]
   double knee_stiffness = 0.0;            // additional stiffness beyond the allowed overlap [N/m]; 0: not reached
+  double slip_stiffness = 0.0;            // k_t at the last evaluation [N/m]
   double offset = 0.0;  // overlap without force, of carriers that overlapped before they closed in [m]
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   Eigen::Vector3d slip = Eigen::Vector3d::Zero();   // tangential spring [m]

@@ -13,8 +13,11 @@
 //   bonded      : in tension a spring k_p = F0^2/(2U) = F0/(2 d0), which breaks at the pull-off force F0 having stored
 //                 just U. So a slow pull ends at F0, a blow at U, whatever k is.
 // A rebound that turns back before it separates is bonded too. Friction holds up to mu (F_spring + F0) when bonded, and
-// mu F_spring in an impact; the spring's impulse equals the whole normal impulse (the dashpot's integral over a closed
-// contact is zero), so sliding impacts follow e_t = 1 - mu (1+e) cot(theta) for every e.
+// mu F_spring in an impact; the linear spring's impulse equals the whole normal impulse (the dashpot's integral over a
+// closed contact is zero), so sliding impacts follow e_t = 1 - mu (1+e) cot(theta) for every e.
+//
+// Hertz contacts (normal_force.hpp) go through the same states with their own spring. DMT and JKR on them need no
+// booking: their force is followed, the JKR contact to a negative overlap.
 
 #include "dem/contact_step.hpp"
 
@@ -28,25 +31,42 @@
 #include "dem/friction.hpp"
 #include "dem/linear_contact.hpp"
 #include "dem/meeting.hpp"
+#include "dem/normal_force.hpp"
+#include "dem/open_contacts.hpp"
 
 namespace puffin::dem {
 namespace {
 
 using Eigen::Vector3d;
 constexpr double never = std::numeric_limits<double>::infinity();
-constexpr double touching = 1e-9;      // of the radius: a gap below this is rounding of the positions
-constexpr double knee_capacity = 8.0;  // K = 8 m* (v/D)^2 takes the energy m* v^2/2 within s = 1/2 (0.068 K D^2)
+constexpr double touching = 1e-9;  // of the radius: a gap below this is rounding of the positions
+constexpr double bend_way = 0.05;  // of the overlap over which adhesion bends the curve, in one sub-step
 
 double knee(const Rules& rules, const Touch& touch) {
   const SurfaceLaw& law = touch.b >= 0 ? rules.carrier : rules.wall;
   return law.stiffness > 0.0 ? 5.0 * touch.pair.allowed : touch.pair.allowed;  // a given stiffness is left alone longer
 }
 
-/// Largest sub-step for an oscillation of stiffness k.
+/// Largest sub-step for an oscillation of stiffness k: a part of the contact time of an impact that ends at it.
 double allowed_step(const Rules& rules, const SurfaceLaw& law, const Touch& touch, double k) {
   // the tangential spring with its smaller effective mass (2/7 m*) may be the faster one
-  const double fastest = std::max(1.0, rules.rotation ? 3.5 * law.tangential_ratio : law.tangential_ratio);
-  return std::numbers::pi * std::sqrt(touch.pair.mass / (k * fastest)) / rules.integration.steps_per_contact;
+  double fastest = std::max(1.0, rules.rotation ? 3.5 * law.tangential_ratio : law.tangential_ratio);
+  if (law.hertz) fastest *= (1.0 + 2.0 * law.zeta) * (1.0 + 2.0 * law.zeta);  // its dashpot sets in as overlap^(1/4)
+  return std::min(std::numbers::pi * std::sqrt(touch.pair.mass / (k * fastest)) / rules.integration.steps_per_contact,
+                  touch.pair.longest_step);
+}
+
+/// Keeps the largest force and overlap. Near the turning point the overlap still to come, m* v^2/(2 F) from here (and
+/// where it comes from, past the point), is known to second order; the dashpot is silent there.
+void note_extremes(double overlap, double closing, double spring, double tangent, Touch& touch) {
+  Contact& c = touch.memory;
+  c.max_force = std::max(c.max_force, c.normal_force);
+  c.max_overlap = std::max(c.max_overlap, overlap);
+  if (!(spring > 0.0) || !(overlap > 0.0)) return;
+  const double way = 0.5 * touch.pair.mass * closing * closing / spring;
+  if (way > 0.02 * overlap) return;
+  c.max_overlap = std::max(c.max_overlap, overlap + way);
+  c.max_force = std::max(c.max_force, spring + tangent * way);
 }
 
 /// First touch: logs it, lets adhesion pull, chooses the stiffness.
@@ -87,7 +107,8 @@ void begin_contact(const Meeting& m, double h, double time, const Rules& rules, 
 }
 
 /// True if the contact ends now: it left its first impact with more than the energy of the well. Otherwise it is
-/// bonded. Gives back what the last half kick pushed too much, since the contact carried forces only up to `since` ago.
+/// bonded; DMT and JKR contacts have no well, they end. Gives back what the last half kick pushed too much, since the
+/// contact carried forces only up to `since` ago.
 bool separates(const Meeting& m, double h, double since, Touch& touch, Body& a, Body* b) {
   push_at_contact(m.normal * (-0.5 * since * touch.spring_force + (0.5 * h - since) * touch.dashpot_force) -
                       0.5 * since * touch.slip_force,
@@ -128,9 +149,7 @@ void end_contact(double time, Cluster& cluster, Touch& touch) {
   ended.triangle = c.triangle;
   ended.normal_speed = c.normal_speed, ended.tangential_speed = c.tangential_speed;
   const double mass = b != nullptr ? 0.5 * (a.single_mass + b->single_mass) : a.single_mass;
-  const double speed2 =
-      c.normal_speed * c.normal_speed + (b != nullptr ? c.tangential_speed * c.tangential_speed : 0.0);
-  ended.energy = 0.5 * mass * speed2;
+  ended.energy = impact_energy(c, mass);
   ended.max_force = c.max_force, ended.max_overlap = c.max_overlap;
   cluster.ended.push_back(ended);
   touch.memory = Contact{};
@@ -180,11 +199,12 @@ double evaluate(std::size_t index, double h, double time, double horizon, const 
 
   m.overlap -= c.offset;
   double closing = -m.normal.dot(centre_velocity(a, b, true));
+  const double stretch = touch.pair.jkr.stretch;  // how far the surfaces may part before the contact is over
   if (c.phase == ContactPhase::impact && closing < 0.0) c.phase = ContactPhase::leaving;
   if (c.phase == ContactPhase::leaving && closing > 0.0 && m.overlap > 0.0)
     c.phase = touch.pair.pull_off > 0.0 ? ContactPhase::bonded : ContactPhase::impact;
-  if (c.phase != ContactPhase::bonded && m.overlap <= 0.0 && closing < 0.0) {
-    const double since = std::min(h, m.overlap / closing);
+  if (c.phase != ContactPhase::bonded && m.overlap <= -stretch && closing < 0.0) {
+    const double since = std::min(h, (m.overlap + stretch) / closing);
     if (separates(m, h, since, touch, a, b)) {
       end_contact(time - since, cluster, touch);
       return never;
@@ -194,45 +214,30 @@ double evaluate(std::size_t index, double h, double time, double horizon, const 
     closing = -m.normal.dot(centre_velocity(a, b, true));
   }
 
-  // Normal force.
   const bool bonded = c.phase == ContactPhase::bonded;
   const double allowed = knee(rules, touch);
-  double spring = 0.0, eta = touch.eta, tangent = c.stiffness;
-  if (m.overlap > 0.0) {
-    spring = c.stiffness * m.overlap;
-    if (m.overlap > allowed) {
-      if (c.knee_stiffness == 0.0) {
-        const double v = std::max(0.0, closing) / allowed;
-        c.knee_stiffness = std::max(c.stiffness, knee_capacity * touch.pair.mass * v * v);
-      }
-      const double s = std::min(0.99, (m.overlap - allowed) / allowed), rest = 1.0 - s;
-      spring += c.knee_stiffness * allowed * s * s / rest;
-      tangent += c.knee_stiffness * (2.0 - s) * s / (rest * rest);
-      eta = 2.0 * law.zeta * std::sqrt(touch.pair.mass * tangent);
-    } else {
-      c.knee_stiffness = 0.0;
-    }
-  } else if (bonded) {
-    spring = touch.pair.pull_stiffness * m.overlap;
-    tangent = touch.pair.pull_stiffness;
-    eta = touch.eta_pull;
-    if (-spring >= touch.pair.pull_off) {
-      end_contact(time, cluster, touch);
-      return never;
-    }
+  const NormalForce normal =
+      law.hertz ? elastic_force(m.overlap, rules, law, touch) : linear_force(m.overlap, closing, allowed, law, touch);
+  if (normal.broken) {
+    end_contact(time, cluster, touch);
+    return never;
   }
+  const double spring = normal.spring, tangent = normal.tangent, eta = normal.eta;
   // The dashpot acts on the speed at the end of the sub-step. The predicted one carries the old force of this contact;
   // to put its new force there instead, dashpot included, is second order with a small constant (e right within 0.1 %).
   const double response = 0.5 * h / touch.pair.mass;
   const double dashpot =
-      eta * (closing + response * (touch.spring_force + touch.dashpot_force - spring)) / (1.0 + response * eta);
+      std::max(normal.least - spring, eta * (closing + response * (touch.spring_force + touch.dashpot_force - spring)) /
+                                          (1.0 + response * eta));
 
-  // Friction and rolling, held by what presses the surfaces together.
-  const double pressing = std::max(0.0, spring) + (bonded ? touch.pair.pull_off + std::min(0.0, spring) : 0.0);
+  // Friction and rolling, held by what presses the surfaces together. The linear dashpot's integral over a contact is
+  // zero; that of a Hertz contact, which never pulls, is not.
+  const double pressing = std::max(0.0, (law.hertz ? spring + dashpot : spring) + normal.lean);
   const Vector3d tangential = slip_force(m, share, pressing, law, touch, a, b);
-  if (bonded) {
-    c.use = std::max(c.use, std::max(0.0, -spring) / touch.pair.pull_off);
-    c.hold = std::min(c.hold, touch.pair.pull_off);
+  const double pull = touch.pair.largest_pull();
+  if (pull > 0.0 && (bonded || law.attraction != Attraction::well)) {
+    c.use = std::max(c.use, std::max(0.0, -spring) / pull);
+    c.hold = std::min(c.hold, pull);
   } else {
     c.hold = std::min(c.hold, spring);
   }
@@ -255,8 +260,7 @@ double evaluate(std::size_t index, double h, double time, double horizon, const 
   c.normal = m.normal;
   c.force = force;
   c.normal_force = spring + dashpot;
-  c.max_force = std::max(c.max_force, c.normal_force);
-  c.max_overlap = std::max(c.max_overlap, m.overlap);
+  note_extremes(m.overlap, closing, spring, tangent, touch);
   live = true;
 
   // The next sub-step.
@@ -265,16 +269,18 @@ double evaluate(std::size_t index, double h, double time, double horizon, const 
   const bool quiet =
       bonded && energy < 0.1 * touch.pair.well && m.overlap < 0.5 * allowed && -spring < 0.5 * touch.pair.pull_off;
   const double coarse = quiet ? rules.integration.steps_per_contact / 8.0 : 1.0;
-  double step = coarse * allowed_step(rules, law, touch, tangent);
-  if (closing > 0.0) {
+  double step = coarse * allowed_step(rules, law, touch, law.hertz ? std::max(tangent, c.stiffness) : tangent);
+  if (m.overlap < 2.0 * touch.pair.bend && energy < 100.0 * pull * touch.pair.bend)
+    step = std::min(step, bend_way * touch.pair.bend / std::max(std::abs(closing), 1e-300));
+  if (closing > 0.0 && !law.hertz) {
     if (m.overlap > allowed)
       step = std::min(step, 0.1 * std::max(2.0 * allowed - m.overlap, 0.01 * allowed) / closing);
     else if (closing * step > allowed - m.overlap)
       step = std::min(step, (allowed - m.overlap + 0.05 * allowed) / closing);
   }
   // Leaving: end the sub-step where the overlap is gone, if that is not much less than a sub-step away.
-  if (closing < 0.0 && m.overlap > 0.0) {
-    const double fall = first_zero(m.overlap, closing, (spring + dashpot) / -touch.pair.mass, step);
+  if (closing < 0.0 && m.overlap + stretch > 0.0) {
+    const double fall = first_zero(m.overlap + stretch, closing, (spring + dashpot) / -touch.pair.mass, step);
     if (fall < step) step = std::max(fall, 0.25 * step);
   }
   // Near separation, slow enough to bond: the stiffer spring of tension is about to take over.

@@ -7,10 +7,15 @@ namespace puffin::dem {
 
 using Eigen::Vector3d;
 
+double slip_dashpot(const SurfaceLaw& law, bool rotation, double mass, double slip_stiffness) {
+  const double slip_mass = rotation ? 2.0 / 7.0 * mass : mass;  // of a solid sphere at its surface
+  return 2.0 * law.zeta * std::sqrt(slip_mass * slip_stiffness);
+}
+
 Vector3d slip_force(const Meeting& m, double step, double limit_force, const SurfaceLaw& law, Touch& touch,
                     const Body& a, const Body* b) {
   Contact& c = touch.memory;
-  const double k = law.tangential_ratio * c.stiffness;
+  const double k = c.slip_stiffness;
   Vector3d half = surface_velocity(m, a, b, false);
   half -= m.normal * m.normal.dot(half);
   Vector3d end = surface_velocity(m, a, b, true);
@@ -31,7 +36,7 @@ Vector3d slip_force(const Meeting& m, double step, double limit_force, const Sur
 Vector3d rolling_moment(const Meeting& m, double step, double limit_force, const SurfaceLaw& law, Touch& touch,
                         const Body& a, const Body* b) {
   Contact& c = touch.memory;
-  const double k = law.tangential_ratio * c.stiffness * touch.pair.radius * touch.pair.radius;
+  const double k = c.slip_stiffness * touch.pair.radius * touch.pair.radius;
   Vector3d half = a.w, end = a.w + a.twist;
   double inverse = a.inverse_inertia;
   if (b != nullptr) half -= b->w, end -= b->w + b->twist, inverse += b->inverse_inertia;

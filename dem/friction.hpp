@@ -5,6 +5,9 @@
 
 namespace puffin::dem {
 
+/// Dashpot [kg/s] beside a tangential spring [N/m] of a pair of reduced mass `mass` [kg].
+double slip_dashpot(const SurfaceLaw& law, bool rotation, double mass, double slip_stiffness);
+
 /// Tangential force on a [N]: a spring with dashpot (Cundall & Strack 1979) up to the friction limit mu * `pressing`
 /// (thesis eq. 2.4). Moves the spring by `step` [s] of the bodies' half-step velocities and shortens it at the limit,
 /// so it never gives back more than it took. Sets the contact's `use` and `hold`.

@@ -32,12 +32,17 @@ void check(const Friction& friction) {
           "give a speed above slip_speed");
 }
 
-void check(const Surfaces& surfaces) {
-  const auto& contact = std::get<LinearContact>(surfaces.contact);
+/// What both contact laws share.
+template <class Contact>
+void check_common(const Contact& contact) {
   require(contact.restitution > 0.0 && contact.restitution <= 1.0, "restitution", contact.restitution,
           "give 0 < e <= 1 (for a nearly dead impact 0.01)");
   check(contact.friction);
   require(not_negative(contact.rolling_friction), "rolling_friction", contact.rolling_friction, "give a value >= 0");
+}
+
+void check(const LinearContact& contact) {
+  check_common(contact);
   require(contact.max_overlap > 0.0 && contact.max_overlap <= 0.2, "max_overlap", contact.max_overlap,
           "give a part of the diameter between 0 and 0.2, e.g. 0.02");
   require(contact.tangential_ratio > 0.0 && contact.tangential_ratio <= 1.0, "tangential_ratio",
@@ -45,17 +50,51 @@ void check(const Surfaces& surfaces) {
   if (contact.stiffness)
     require(positive(*contact.stiffness), "stiffness", *contact.stiffness,
             "give a value > 0 N/m, or leave it automatic");
-  if (const auto* hamaker = std::get_if<Hamaker>(&surfaces.adhesion)) {
-    require(positive(hamaker->surface_energy), "surface_energy", hamaker->surface_energy,
-            "give a value > 0 J/m^2, or choose no adhesion");
-    require(positive(hamaker->cutoff_gap), "cutoff_gap", hamaker->cutoff_gap, "give a gap > 0 m, e.g. 4e-10");
-    if (hamaker->hamaker != 0.0) {
-      const double d0 = hamaker->cutoff_gap;
-      const double gamma = hamaker->hamaker / (24.0 * std::numbers::pi * d0 * d0);
-      require(std::abs(gamma - hamaker->surface_energy) <= 0.05 * hamaker->surface_energy, "hamaker", hamaker->hamaker,
-              "it must agree with surface_energy = H/(24 pi cutoff_gap^2) within 5 %: change one, or leave it out");
-    }
+}
+
+void check(const HertzContact& contact) {
+  check_common(contact);
+  require(contact.restitution >= 0.01, "restitution", contact.restitution, "a Hertz contact can return 0.01 at least");
+  for (const Elasticity& e : {contact.body, contact.partner}) {
+    require(positive(e.youngs_modulus), "youngs_modulus", e.youngs_modulus, "give a modulus > 0 Pa, e.g. 24e9");
+    require(e.poisson >= 0.0 && e.poisson <= 0.5, "poisson", e.poisson, "give 0 to 0.5, e.g. 0.3");
   }
+}
+
+void check(const NoAdhesion&, const ContactModel&) {}
+
+/// What all adhesive laws share.
+template <class Law>
+void check_attraction(const Law& law) {
+  require(positive(law.surface_energy), "surface_energy", law.surface_energy,
+          "give a value > 0 J/m^2, or choose no adhesion");
+  require(law.spread.sigma >= 0.0 && law.spread.sigma <= 3.0, "sigma of the surface energy", law.spread.sigma,
+          "give the deviation of ln(surface_energy), 0 to 3, e.g. 0.5");
+}
+
+void check(const Hamaker& hamaker, const ContactModel&) {
+  check_attraction(hamaker);
+  require(positive(hamaker.cutoff_gap), "cutoff_gap", hamaker.cutoff_gap, "give a gap > 0 m, e.g. 4e-10");
+  if (hamaker.hamaker == 0.0) return;
+  const double gamma = hamaker.hamaker / (24.0 * std::numbers::pi * hamaker.cutoff_gap * hamaker.cutoff_gap);
+  require(std::abs(gamma - hamaker.surface_energy) <= 0.05 * hamaker.surface_energy, "hamaker", hamaker.hamaker,
+          "it must agree with surface_energy = H/(24 pi cutoff_gap^2) within 5 %: change one, or leave it out");
+}
+
+void check(const Dmt& dmt, const ContactModel&) {
+  check_attraction(dmt);
+  require(positive(dmt.cutoff_gap), "cutoff_gap", dmt.cutoff_gap, "give a gap > 0 m, e.g. 4e-10");
+}
+
+void check(const Jkr& jkr, const ContactModel& contact) {
+  check_attraction(jkr);
+  if (!std::holds_alternative<HertzContact>(contact))
+    throw std::invalid_argument("dem: JKR adhesion on a linear contact; its curve needs the moduli of a Hertz contact");
+}
+
+void check(const Surfaces& surfaces) {
+  std::visit([](const auto& contact) { check(contact); }, surfaces.contact);
+  std::visit([&](const auto& adhesion) { check(adhesion, surfaces.contact); }, surfaces.adhesion);
 }
 
 }  // namespace

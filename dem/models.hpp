@@ -2,6 +2,7 @@
 // The laws of the carriers as immutable values: contact, adhesion, gravity, walls, integration.
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <optional>
 #include <variant>
 
@@ -32,7 +33,29 @@ struct LinearContact {
   double tangential_ratio = 2.0 / 7.0;  // k_t / k
 };
 
-using ContactModel = std::variant<LinearContact>;
+/// Elasticity of one body.
+struct Elasticity {
+  double youngs_modulus = 0.0;  // E [Pa], > 0
+  double poisson = 0.0;         // nu, 0 to 0.5
+};
+
+/// Hertz-Mindlin (hertz.hpp): F_n = 4/3 E* sqrt(R*) delta^1.5 with the dashpot of Tsuji et al. (1992) that returns the
+/// restitution, F_t on a spring 8 G* a with Coulomb's limit. The force never pulls without adhesion.
+struct HertzContact {
+  double restitution = 0.6;  // 0 < e <= 1
+  Friction friction = ConstantFriction{};
+  double rolling_friction = 0.0;  // as LinearContact
+  Elasticity body, partner;       // of the carrier, and of what it touches
+};
+
+using ContactModel = std::variant<LinearContact, HertzContact>;
+
+/// Surface energies of the carriers differ: log-normal with `sigma` around the given value, the median
+/// (adhesion_spread.hpp).
+struct Spread {
+  double sigma = 0.0;  // of ln(gamma), >= 0
+  std::uint64_t seed = 1;
+};
 
 struct NoAdhesion {};
 
@@ -47,9 +70,27 @@ struct Hamaker {
   double hamaker = 0.0;         // H [J]; 0: from gamma and d0. Else it must agree with 24 pi d0^2 gamma within 5 %
   double cutoff_gap = 4e-10;    // d0 [m]
   ParcelScaling parcel_scaling = ParcelScaling::ddpm;
+  Spread spread = {};
 };
 
-using Adhesion = std::variant<NoAdhesion, Hamaker>;
+/// DMT (dmt.hpp), pull-off 4 pi gamma R*. With HertzContact: the force law itself, which needs the true moduli. With
+/// LinearContact the spring is softer than the body, and a constant attraction would store energy in it that nature
+/// does not: then force and well are booked as for Hamaker, U = F0 cutoff_gap.
+struct Dmt {
+  double surface_energy = 0.0;  // gamma [J/m^2], > 0
+  double cutoff_gap = 4e-10;    // [m]
+  ParcelScaling parcel_scaling = ParcelScaling::ddpm;
+  Spread spread = {};
+};
+
+/// JKR (jkr.hpp), pull-off 3 pi gamma R*, with its hysteresis. Needs HertzContact, with the true moduli.
+struct Jkr {
+  double surface_energy = 0.0;  // gamma [J/m^2], > 0
+  ParcelScaling parcel_scaling = ParcelScaling::ddpm;
+  Spread spread = {};
+};
+
+using Adhesion = std::variant<NoAdhesion, Hamaker, Dmt, Jkr>;
 
 /// One kind of touching pair: carrier on carrier, or carrier on wall.
 struct Surfaces {

@@ -52,7 +52,8 @@ struct State {
 void add(std::span<const Carrier> carriers, State& state);
 
 /// Removes the carriers with gone[i] != 0 (one entry a carrier); the others keep their order and their contacts. The
-/// contacts of those that go are dropped without an event; sleeping neighbours of those that go wake.
+/// contacts of those that go are dropped without an event (open_contacts() tells of them before); sleeping neighbours
+/// of those that go wake.
 void remove(std::span<const std::uint8_t> gone, State& state);
 
 /// Lets a carrier move again that is asleep, stuck or held.

@@ -131,6 +131,18 @@ class Checks {
                                 " (5 % allowed); drop one");
   }
 
+  void elasticity(const std::string& key, const Contact& contact, const Adhesion& adhesion) {
+    if (contact.model == ContactModel::hertz || adhesion.model == AdhesionModel::jkr) {
+      if (contact.restitution < 0.01)
+        say(key + ".contact.restitution", "a Hertz contact can return 0.01 at least; give a value from 0.01 to 1");
+    } else if (contact.restitution <= 0.0) {
+      say(key + ".contact.restitution", "must be above 0; for a nearly dead impact give 0.01");
+    }
+    if (adhesion.model == AdhesionModel::jkr && !(contact.youngs_modulus > 0.0))
+      say(key + ".contact.youngs_modulus",
+          "JKR adhesion follows the true elastic curve: give youngs_modulus and poisson in [" + key + ".contact]");
+  }
+
   void carriers() {
     if (!c_.carriers) return;
     const Carriers& c = *c_.carriers;
@@ -141,6 +153,8 @@ class Checks {
       if (const auto* patch = std::get_if<std::string>(&c.fill->at)) known_patch("carriers.fill.at", *patch);
     adhesion("carriers.adhesion", c.adhesion);
     adhesion("carriers.walls.adhesion", c.wall_adhesion);
+    elasticity("carriers", c.contact, c.adhesion);
+    elasticity("carriers.walls", c.wall_contact, c.wall_adhesion);
     if (c.contact.max_overlap > 0.5) say("carriers.contact.max_overlap", "must be at most 0.5 of the radius");
     if (c_.fines && !c_.fines->micromodels.empty() && c.fines_each == 0.0)
       say("carriers.fines_each", "[fines] names micro-models, but the carriers carry no fines: give fines_each");

@@ -4,6 +4,7 @@
 #include "cases/derived.hpp"
 #include "cases/format/schema.hpp"
 #include "cases/search_path.hpp"
+#include "cases/size_distribution.hpp"
 
 namespace puffin::cases::format {
 namespace {
@@ -76,7 +77,22 @@ void describe_contact(Fields& io, Contact& c, const Contact* base) {
     io.number("youngs_modulus", c.youngs_modulus, unit::pressure, Range::positive, elastic(&Contact::youngs_modulus));
   if (hertz || io.has("poisson", c.poisson != 0.0))
     io.number("poisson", c.poisson, unit::number, Range::fraction, elastic(&Contact::poisson));
+  if (c.poisson > 0.5) io.problem("poisson", "must be at most 0.5, the value of a body that keeps its volume");
   io.choice("on_wall", c.on_wall, or_as(base ? &base->on_wall : nullptr, OnWall::bounce));
+}
+
+/// One value, or { median, sigma }: log-normal over the carriers.
+void describe_surface_energy(Fields& io, Adhesion& a, Fallback<double> gamma, double base_sigma) {
+  if (io.shape("surface_energy", a.sigma > 0.0 ? Shape::table : Shape::number) != Shape::table) {
+    io.number("surface_energy", a.surface_energy, unit::surface_energy, Range::non_negative, gamma);
+    if (io.reading()) a.sigma = io.has("surface_energy", true) ? 0.0 : base_sigma;
+    return;
+  }
+  io.section("surface_energy", [&](Fields& t) {
+    t.number("median", a.surface_energy, unit::surface_energy, Range::positive, required);
+    t.number("sigma", a.sigma, unit::number, Range::non_negative, required);
+    if (a.sigma > 3.0) t.problem("sigma", "is the deviation of ln(surface_energy); at most 3, e.g. 0.5");
+  });
 }
 
 void describe_adhesion(Fields& io, Adhesion& a, const Adhesion* base) {
@@ -101,7 +117,7 @@ void describe_adhesion(Fields& io, Adhesion& a, const Adhesion* base) {
     gamma = derived(a.hamaker / factor, "H / (24 pi d0^2)");
     io.number("surface_energy", a.surface_energy, unit::surface_energy, Range::non_negative, gamma);
   } else {
-    io.number("surface_energy", a.surface_energy, unit::surface_energy, Range::non_negative, gamma);
+    describe_surface_energy(io, a, gamma, from_base ? base->sigma : 0.0);
     h = derived(factor * a.surface_energy, "24 pi gamma d0^2");
     if (from_base && base->cutoff_gap == a.cutoff_gap) h = derived(base->hamaker, as_carriers);
     io.number("hamaker", a.hamaker, unit::energy, Range::non_negative, h);
@@ -119,6 +135,11 @@ void describe_fill(Fields& io, Fill& fill) {
     io.vector("at", std::get<Vec3>(fill.at), unit::length, required);
   } else {
     io.text("at", std::get<std::string>(fill.at), required);
+  }
+  if (fill.shape == FillShape::settled && io.has("bulk_density", fill.bulk_density.has_value())) {
+    double value = fill.bulk_density.value_or(0.0);
+    io.number("bulk_density", value, unit::density, Range::positive, required);
+    fill.bulk_density = value;
   }
   io.number("gap", fill.gap, unit::number, Range::non_negative, otherwise(0.2));
   io.number("jitter", fill.jitter, unit::number, Range::fraction, otherwise(0.01));
@@ -148,10 +169,49 @@ void describe_list(Fields& io, Carriers& c) {
   });
 }
 
+/// The diameter that stands for all.
+void resolve_diameter(Fields& io, Carriers& c) {
+  const SizeDistribution& d = *c.sizes;
+  if (d.law == SizeLaw::log_normal && !(d.median > 0.0)) return;  // reported already
+  if (d.law == SizeLaw::rosin_rammler && !(d.scale > 0.0 && d.exponent > 0.0)) return;
+  if (d.law == SizeLaw::table && d.file.empty()) return;
+  try {
+    c.diameter = mean_volume_diameter(size_table(d));
+  } catch (const std::exception& e) {
+    io.problem("diameter", e.what());
+  }
+}
+
+/// One value, or a table { law, ... }.
+void describe_diameter(Fields& io, Carriers& c) {
+  if (io.shape("diameter", c.sizes ? Shape::table : Shape::number) != Shape::table)
+    return io.number("diameter", c.diameter, unit::length, Range::positive, required);
+  if (io.reading()) c.sizes.emplace();
+  SizeDistribution& d = *c.sizes;
+  io.section("diameter", [&](Fields& t) {
+    t.choice<SizeLaw>("law", d.law, required);
+    if (d.law == SizeLaw::log_normal) {
+      t.number("median", d.median, unit::length, Range::positive, required);
+      t.number("sigma", d.sigma, unit::number, Range::non_negative, required);
+    } else if (d.law == SizeLaw::rosin_rammler) {
+      t.number("scale", d.scale, unit::length, Range::positive, required);
+      t.number("exponent", d.exponent, unit::number, Range::positive, required);
+    } else {
+      t.file("file", d.file, {});
+    }
+    const int by = t.word("by", {"volume", "number"}, d.by_volume ? 0 : 1, 0);
+    if (by < 0) t.problem("by", "must be \"volume\" or \"number\": what the shares are shares of");
+    d.by_volume = by != 1;
+    if (t.has("smallest", d.smallest > 0.0)) t.number("smallest", d.smallest, unit::length, Range::positive, required);
+    if (t.has("largest", d.largest > 0.0)) t.number("largest", d.largest, unit::length, Range::positive, required);
+    if (d.largest > 0.0 && d.smallest > d.largest) t.problem("largest", "must not be below 'smallest'");
+  });
+  if (io.reading()) resolve_diameter(io, c);
+}
+
 void describe_source(Fields& io, Carriers& c) {
   const bool listed = io.has("list", !c.list.empty());
-  if (!listed || io.has("diameter", c.diameter > 0.0))
-    io.number("diameter", c.diameter, unit::length, Range::positive, required);
+  if (!listed || io.has("diameter", c.diameter > 0.0 || c.sizes)) describe_diameter(io, c);
   if (!listed || io.has("density", c.density > 0.0))
     io.number("density", c.density, unit::density, Range::positive, required);
   std::int64_t parcel = c.parcel;
@@ -159,6 +219,7 @@ void describe_source(Fields& io, Carriers& c) {
   if (parcel > 1'000'000) io.problem("parcel", "at most a million carriers a parcel"), parcel = 1;
   c.parcel = static_cast<int>(parcel);
   const bool fill = io.has("fill", c.fill.has_value());
+  if (listed && c.sizes) io.problem("diameter", "a list gives each carrier its own diameter");
   if (listed && fill) io.problem("fill", "give either 'fill' or 'list', not both");
   if (!listed && !fill) io.problem("fill", "say where the carriers start: 'fill' or 'list'");
   if (fill) {
@@ -182,6 +243,8 @@ void describe(Fields& io, Carriers& c) {
   io.choice("drag", c.drag, otherwise(Drag::schiller_naumann));
   io.choice("volume_fraction", c.volume_fraction, otherwise(VolumeFraction::drag));
   io.choice("lift", c.lift, otherwise(Lift::none));
+  io.flag("pressure_gradient", c.pressure_gradient, otherwise(false));
+  io.flag("near_wall", c.near_wall, otherwise(false));
   io.flag("rotation", c.rotation, otherwise(true));
   io.flag("two_way", c.two_way, otherwise(true));
   io.number("start", c.start, unit::time, Range::non_negative, otherwise(0.0));

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "coupling/checkpoint/bytes.hpp"
+#include "dem/open_contacts.hpp"
 #include "tools/output/stats_file.hpp"
 #include "tools/puffin/frames_of.hpp"
 
@@ -16,32 +17,30 @@ namespace {
 
 constexpr const char* journal_name = "checkpoints/events.journal";
 
+/// What the log holds of a contact; the fines it moved are in `moved` if it moved any.
+output::EventRecord record_of(const dem::ContactEnded& c, const MovedFines& moved) {
+  output::EventRecord r;
+  r.time_start = c.time_start;
+  r.time_end = c.time_end;
+  r.a = static_cast<std::int32_t>(c.a);
+  r.b = static_cast<std::int32_t>(c.b);
+  r.triangle = c.triangle;
+  r.normal_speed = c.normal_speed;
+  r.tangential_speed = c.tangential_speed;
+  r.energy = c.energy;
+  r.max_force = c.max_force;
+  r.max_overlap = c.max_overlap;
+  if (const auto found = moved.find({c.a, c.b, c.triangle, c.time_start}); found != moved.end()) {
+    r.detached = found->second.air + found->second.wall;
+    r.attached = found->second.wall;
+  }
+  return r;
+}
+
 /// The contacts that last beyond the end of the run, as if they ended now.
 std::vector<output::EventRecord> open_contacts(const cases::Simulation& s, const MovedFines& moved) {
-  const dem::Carriers& c = s.state.carriers.carriers;
   std::vector<output::EventRecord> records;
-  for (const dem::Contact& contact : s.state.carriers.contacts) {
-    if (contact.phase == dem::ContactPhase::free) continue;
-    output::EventRecord r;
-    r.time_start = contact.time_start;
-    r.time_end = s.state.time;
-    r.a = static_cast<std::int32_t>(c.id[contact.a]);
-    r.b = contact.b >= 0 ? static_cast<std::int32_t>(c.id[contact.b]) : -1;
-    r.triangle = contact.triangle;
-    r.normal_speed = contact.normal_speed;
-    r.tangential_speed = contact.tangential_speed;
-    const double mass =
-        contact.b >= 0 ? 0.5 * (c.single_mass(contact.a) + c.single_mass(contact.b)) : c.single_mass(contact.a);
-    const double speed = contact.b >= 0 ? std::hypot(r.normal_speed, r.tangential_speed) : r.normal_speed;
-    r.energy = 0.5 * mass * speed * speed;
-    r.max_force = contact.max_force;
-    r.max_overlap = contact.max_overlap;
-    if (const auto found = moved.find({r.a, r.b, r.triangle, r.time_start}); found != moved.end()) {
-      r.detached = found->second.air + found->second.wall;
-      r.attached = found->second.wall;
-    }
-    records.push_back(r);
-  }
+  for (const auto& c : dem::open_contacts(s.state.carriers, s.state.time)) records.push_back(record_of(c, moved));
   std::sort(records.begin(), records.end(), [](const output::EventRecord& x, const output::EventRecord& y) {
     return std::tie(x.time_start, x.a, x.b, x.triangle) < std::tie(y.time_start, y.a, y.b, y.triangle);
   });
@@ -191,24 +190,9 @@ void Recorder::take_events(const cases::Simulation& s) {
       moved_[{c.a, c.b, c.triangle, c.time}] = taken[n];
     }
   std::vector<output::EventRecord> records;
-  for (const auto& c : events.ended) {
-    output::EventRecord r;
-    r.time_start = c.time_start;
-    r.time_end = c.time_end;
-    r.a = static_cast<std::int32_t>(c.a);
-    r.b = static_cast<std::int32_t>(c.b);
-    r.triangle = c.triangle;
-    r.normal_speed = c.normal_speed;
-    r.tangential_speed = c.tangential_speed;
-    r.energy = c.energy;
-    r.max_force = c.max_force;
-    r.max_overlap = c.max_overlap;
-    if (const auto found = moved_.find({c.a, c.b, c.triangle, c.time_start}); found != moved_.end()) {
-      r.detached = found->second.air + found->second.wall;
-      r.attached = found->second.wall;
-      moved_.erase(found);
-    }
-    records.push_back(r);
+  for (const dem::ContactEnded& c : events.ended) {
+    records.push_back(record_of(c, moved_));
+    moved_.erase({c.a, c.b, c.triangle, c.time_start});
   }
   if (!records.empty()) events_->append(records);
 }

@@ -1,0 +1,100 @@
+#include "coupling/field_forces.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "coupling/near_wall.hpp"
+
+namespace puffin::coupling {
+namespace {
+
+using Eigen::Matrix3d;
+
+constexpr double wall_reach = 10.0;  // radii within which a wall is felt: at 10 it adds 6 %
+
+double volume_of(const dem::Carriers& c, std::size_t p) {
+  return 4.0 / 3.0 * std::numbers::pi * c.carriers[p] * std::pow(c.single_radius[p], 3);
+}
+
+/// (1 - e^-x)/x: the mean over an interval of what decays at the rate x in it.
+double mean_of_decay(double x) { return x > 1e-8 ? -std::expm1(-x) / x : 1.0; }
+
+/// Gradient of a frozen field, (a,b) = d u_a / d x_b [1/s]; exact for linear fields.
+Matrix3d gradient_of(const std::function<Vec3(const Vec3&)>& field, const Vec3& x, double step) {
+  Matrix3d gradient;
+  for (int d = 0; d < 3; ++d)
+    gradient.col(d) = (field(x + step * Vec3::Unit(d)) - field(x - step * Vec3::Unit(d))) / (2.0 * step);
+  return gradient;
+}
+
+Vec3 curl(const Matrix3d& g) { return {g(2, 1) - g(1, 2), g(0, 2) - g(2, 0), g(1, 0) - g(0, 1)}; }
+
+void add_lift(const Models& m, double interval, const Vec3& vorticity, std::size_t p, State& s) {
+  const dem::Carriers& c = s.carriers.carriers;
+  dem::Load& load = s.loads[p];
+  const double d = 2.0 * c.single_radius[p];
+  const Vec3 slip = load.air_velocity - c.velocity[p];
+  Vec3 lift = saffman_mei_lift(m.air, d, slip, vorticity);
+  if (m.lift == Lift::saffman_magnus && m.carriers.rotation) {
+    const Vec3 relative = 0.5 * vorticity - c.spin[p];
+    lift += magnus_lift(m.air, d, slip, relative);
+    const double k = spin_resistance(m.air, d, relative.norm());
+    const double inertia = 0.1 * c.single_mass(p) * d * d;  // of a single carrier
+    const double of_entry = 0.4 * c.mass[p] * c.radius[p] * c.radius[p];
+    load.torque += k * mean_of_decay(k * interval / inertia) * of_entry / inertia * relative;
+  }
+  load.force += c.carriers[p] * lift;
+}
+
+void add_near_wall(const Models& m, double interval, std::vector<dem::WallTouch>& touches, std::size_t p, State& s) {
+  const dem::Carriers& c = s.carriers.carriers;
+  const double radius = c.single_radius[p];
+  m.walls->near(c.position[p], c.radius[p] + wall_reach * radius, touches);
+  if (touches.empty() || !(touches.front().distance > 0.0)) return;
+  const dem::WallTouch* nearest = &touches.front();
+  for (const auto& touch : touches)
+    if (touch.distance < nearest->distance) nearest = &touch;
+  const Vec3 normal = (c.position[p] - nearest->point) / nearest->distance;
+  const double gap = std::max(0.0, nearest->distance - c.radius[p]) / radius;  // of the parcel's surface
+  dem::Load& load = s.loads[p];
+  const double along = drag_along_wall(1.0 / (1.0 + gap)), across = drag_towards_wall(gap);
+  const double slip = normal.dot(load.air_velocity - c.velocity[p]);
+  const double excess = load.drag * (across - along);
+  load.force += excess * mean_of_decay(excess * interval / c.mass[p]) * slip * normal;
+  load.drag *= along;
+}
+
+}  // namespace
+
+void add_field_forces(const Models& m, double interval, State& s) {
+  const bool gradients = m.lift != Lift::none || m.pressure_gradient;
+  if ((!gradients && !m.near_wall) || (!s.air && !m.frozen_air)) return;
+  const dem::Carriers& c = s.carriers.carriers;
+  if (s.air && gradients) interpolate_gradients(s.stencils, s.air->moments, c.size(), s.gradients);
+  std::vector<std::uint8_t> outside(c.size(), 0);
+  if (s.air)
+    for (const int p : s.stencils.outside()) outside[p] = 1;
+  std::vector<dem::WallTouch> touches;
+  for (std::size_t p = 0; p < c.size(); ++p) {
+    if (outside[p]) continue;
+    if (gradients) {
+      const Matrix3d gradient = s.air ? Matrix3d(s.gradients.velocity_lu[p] / s.scale.dt)
+                                      : gradient_of(m.frozen_air, c.position[p], 0.5 * c.radius[p]);
+      if (m.lift != Lift::none) add_lift(m, interval, curl(gradient), p, s);
+      if (m.pressure_gradient) {
+        const Vec3 slope = s.air ? Vec3(s.gradients.density_excess_lu[p] * (s.scale.pressure(1.0) / s.scale.dx))
+                                 : Vec3(-m.air.density * (gradient * s.loads[p].air_velocity));
+        s.loads[p].force -= volume_of(c, p) * slope;
+      }
+    }
+    if (m.near_wall) add_near_wall(m, interval, touches, p, s);
+  }
+}
+
+void add_field_reaction(double interval, State& s) {
+  const dem::Carriers& c = s.carriers.carriers;
+  for (std::size_t p = 0; p < s.impulse_on_air.size(); ++p)
+    if (c.rest[p] == dem::Rest::awake) s.impulse_on_air[p] -= interval * s.loads[p].force;
+}
+
+}  // namespace puffin::coupling
