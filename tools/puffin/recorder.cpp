@@ -36,6 +36,16 @@ output::HistoryRow history_row(const cases::Simulation& s, const DropReader& dro
   return row;
 }
 
+std::vector<output::StatsColumn> stats_columns() {
+  std::vector<output::StatsColumn> columns;
+  for (std::size_t k = 0; k < output::history_columns().size(); ++k)
+    columns.push_back({output::history_columns()[k], output::history_units()[k]});
+  columns.push_back({"kinetic_energy", "m^2/s^2"});
+  for (const char* of : {"air_momentum_", "carrier_momentum_"})
+    for (const char* axis : {"x", "y", "z"}) columns.push_back({std::string(of) + axis, "kg m/s"});
+  return columns;
+}
+
 Recorder::Recorder(const cases::Simulation& s, const output::OutputFolder& folder)
     : folder_(folder), drops_(s), points_(s) {
   const cases::Output& out = s.description.output;
@@ -46,10 +56,7 @@ Recorder::Recorder(const cases::Simulation& s, const output::OutputFolder& folde
   carriers_.interval = s.description.carriers ? out.carriers : cases::never;
   carriers_.next = std::isfinite(carriers_.interval) ? 0.0 : cases::never;
   history_csv_ = table("history.csv", output::history_columns());
-  std::vector<output::StatsColumn> columns;
-  for (std::size_t k = 0; k < output::history_columns().size(); ++k)
-    columns.push_back({output::history_columns()[k], output::history_units()[k]});
-  stats_ = std::make_unique<output::StatsFile>(folder.file("stats.h5"), columns);
+  stats_ = std::make_unique<output::StatsFile>(folder.file("stats.h5"), stats_columns());
   if (!out.probes.empty()) probes_csv_ = table("probes.csv", output::probe_columns());
   if (!out.planes.empty()) planes_csv_ = table("planes.csv", output::plane_columns());
   if (!out.forces.empty()) forces_csv_ = table("forces.csv", output::force_columns());
@@ -127,7 +134,12 @@ void Recorder::record_statistics(const cases::Simulation& s) {
   const output::HistoryRow row = history_row(s, drops_);
   history_.push_back(row);
   output::append(*history_csv_, row);
-  stats_->append(output::values(row));
+  std::vector<double> stats = output::values(row);
+  const Totals totals = read_totals(s);
+  stats.push_back(totals.kinetic_energy);
+  stats.insert(stats.end(), totals.air_momentum.begin(), totals.air_momentum.end());
+  stats.insert(stats.end(), totals.carrier_momentum.begin(), totals.carrier_momentum.end());
+  stats_->append(stats);
   if (!s.state.air) return;
   const cases::Output& out = s.description.output;
   const double t = s.state.time;

@@ -73,6 +73,9 @@ class Recorder {
   std::map<std::tuple<std::int64_t, std::int64_t, int, double>, coupling::Taken> moved_;
 };
 
+/// Columns of stats.h5: those of history.csv, then the totals of the domain.
+std::vector<output::StatsColumn> stats_columns();
+
 /// One row of the history at this moment.
 output::HistoryRow history_row(const cases::Simulation& s, const DropReader& drops);
 

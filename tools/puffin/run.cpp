@@ -185,7 +185,7 @@ int run_command(const RunOptions& options) {
   output::Status last = output::read_status(folder.file("status.json"));
   last.state = facts.state;
   output::write_status(folder.file("status.json"), last);
-  make_pictures_and_report(folder.path(), options.quiet);
+  if (options.report) make_pictures_and_report(folder.path(), options.quiet);
   if (code == diverged) log_error(facts.message);
   if (options.json) print(output::summary_json(summary));
   return code;
