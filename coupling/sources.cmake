@@ -5,6 +5,7 @@ set(PUFFIN_COUPLING_SOURCES
   drag_limit.cpp
   fines.cpp
   first_motion.cpp
+  frozen_fluxes.cpp
   kernel.cpp
   release_fines.cpp
   statistics.cpp

@@ -91,6 +91,16 @@ Table read_reference(const std::filesystem::path& file) {
   return table;
 }
 
+/// Slopes between neighbours, at the middle between them.
+Points derivative_of(const Points& p) {
+  Points slopes;
+  for (std::size_t i = 1; i < p.x.size(); ++i) {
+    slopes.x.push_back(0.5 * (p.x[i] + p.x[i - 1]));
+    slopes.y.push_back((p.y[i] - p.y[i - 1]) / (p.x[i] - p.x[i - 1]));
+  }
+  return slopes;
+}
+
 Points points_of(const Reading& r, const Table& table, const Known& known, Points& exact) {
   RowFormula y(*r.y, table, known);
   std::optional<RowFormula> x, filter, e;
@@ -106,7 +116,7 @@ Points points_of(const Reading& r, const Table& table, const Known& known, Point
     points.y.push_back(y(row));
     if (e) exact.y.push_back((*e)(row));
   }
-  return points;
+  return r.derivative ? derivative_of(points) : points;
 }
 
 double reduce_table(const Reading& r, Reduction kind, const Table& table, const Known& known) {

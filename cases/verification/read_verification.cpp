@@ -127,6 +127,8 @@ void describe(Fields& io, Reading& r) {
   r.y = formula(io, "y", true);
   r.window = window(io);
   if (r.window && !r.x) io.problem("window", "a window needs 'x', of which it is a range");
+  io.flag("derivative", r.derivative, otherwise(false));
+  if (r.derivative && (!r.x || r.exact)) io.problem("derivative", "needs 'x', and takes 'against' rather than 'exact'");
   if (io.has("time", false)) {
     double time = 0.0;
     io.number("time", time, unit::time, Range::non_negative, required);

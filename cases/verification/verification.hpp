@@ -46,6 +46,7 @@ struct Reading {
   std::optional<Formula> filter;                // rows where this is not 0
   std::optional<Formula> x, y;                  // of the columns, constants and the run's own numbers
   std::optional<std::array<double, 2>> window;  // rows with x in it
+  bool derivative = false;                      // dy/dx between neighbouring points instead of y
   std::optional<double> time;                   // fields: the moment nearest to it; the last one if absent
   std::optional<Reduction> each;                // fields: reduce every moment to one value over time first
   Reduction reduce = Reduction::last;

@@ -130,6 +130,16 @@ TEST_F(VerificationFile, IsJudgedAsByHand) {
   EXPECT_EQ(runs_of(v, v.checks[2]), (std::vector<std::string>{"coarse", "fine"}));
 }
 
+// u of probe a is 1, 2, 6 at 0, 1, 2 s: slopes 1 and 4.
+TEST_F(VerificationFile, DerivativesAreSlopesBetweenRows) {
+  std::string text = replaced(sample, "filter = \"time > 0\"", "derivative = true");
+  text = replaced(text, "y = \"u/U + shift\"", "y = \"u\"");
+  const Verification v = read(text);
+  EXPECT_NEAR(evaluate(v, v.readings[0], v.runs[0], output(0.1)), 4.0, 1e-12);
+  const Verification first = read(replaced(text, "reduce = \"last\"", "reduce = \"at-maximum\""));
+  EXPECT_NEAR(evaluate(first, first.readings[0], first.runs[0], output(0.1)), 1.5, 1e-12);
+}
+
 TEST_F(VerificationFile, WhatIsMissingOrNoNumberFails) {
   const Verification v = read(sample);
   const Outcome missing = evaluate(v, v.checks[0], {{"coarse", output(0.2)}});
