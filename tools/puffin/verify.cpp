@@ -4,16 +4,14 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "cases/search_path.hpp"
 #include "cases/spelling.hpp"
-#include "tools/output/csv_file.hpp"
 #include "tools/output/output_folder.hpp"
 #include "tools/puffin/commands.hpp"
 #include "tools/puffin/console.hpp"
 #include "tools/puffin/exit_codes.hpp"
+#include "tools/puffin/verify_report.hpp"
 #include "tools/puffin/verify_run.hpp"
 
 namespace puffin::tools {
@@ -23,13 +21,6 @@ struct VerifyArguments {
   std::vector<std::string> suites, only, sets;
   std::filesystem::path catalogue, out;
   bool quick = false, json = false;
-};
-
-/// One line of the results.
-struct Row {
-  std::string id, suite, quantity, source;
-  cases::Outcome outcome;
-  double tolerance = 0.0, cells = 0.0, seconds = 0.0;
 };
 
 /// A folder for the runs: the user's, kept; or a temporary one, removed at the end.
@@ -102,8 +93,8 @@ std::optional<cases::RunOutput> make_run(const cases::VerificationRun& run, cons
   return std::nullopt;
 }
 
-std::vector<Row> verify_case(const cases::Verification& v, const VerifyArguments& a,
-                             const std::vector<cases::Override>& sets, const Workplace& place) {
+std::vector<VerifyRow> verify_case(const cases::Verification& v, const VerifyArguments& a,
+                                   const std::vector<cases::Override>& sets, const Workplace& place) {
   const std::vector<cases::Check> checks = checks_of(v, a.quick);
   std::map<std::string, cases::RunOutput> outputs;
   for (const cases::VerificationRun& run : v.runs) {
@@ -116,9 +107,10 @@ std::vector<Row> verify_case(const cases::Verification& v, const VerifyArguments
       outputs[run.name] = *std::move(output);
   }
   set_up_log(false);  // the runs are quiet
-  std::vector<Row> rows;
+  std::vector<VerifyRow> rows;
   for (const cases::Check& check : checks) {
-    Row row{v.id, v.suite, check.quantity, check.source, cases::evaluate(v, check, outputs), check.tolerance, 0.0, 0.0};
+    VerifyRow row{v.id, v.suite, check.quantity, check.source, cases::evaluate(v, check, outputs), check.tolerance,
+                  0.0,  0.0};
     for (const std::string& name : cases::runs_of(v, check))
       if (const auto found = outputs.find(name); found != outputs.end()) {
         row.cells = std::max(row.cells, found->second.numbers["cells_fluid"]);
@@ -129,42 +121,6 @@ std::vector<Row> verify_case(const cases::Verification& v, const VerifyArguments
   }
   place.forget(v.id);
   return rows;
-}
-
-nlohmann::json number(double value) { return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(); }
-
-nlohmann::json to_json(const std::vector<Row>& rows) {
-  nlohmann::json list = nlohmann::json::array();
-  for (const Row& r : rows)
-    list.push_back({{"id", r.id},
-                    {"suite", r.suite},
-                    {"quantity", r.quantity},
-                    {"reference", number(r.outcome.reference)},
-                    {"value", number(r.outcome.value)},
-                    {"error", number(r.outcome.error)},
-                    {"tolerance", r.tolerance},
-                    {"pass", r.outcome.pass},
-                    {"cells", static_cast<std::int64_t>(r.cells)},
-                    {"seconds", r.seconds},
-                    {"source", r.source}});
-  return {{"cases", list}};
-}
-
-void print_row(const Row& r) {
-  char line[400];
-  std::snprintf(line, sizeof line, "%-5s %-8s %-52s %11.5g %11.5g %9.2g %9.2g %s %9.0f %7.1f s", r.id.c_str(),
-                r.suite.c_str(), r.quantity.c_str(), r.outcome.reference, r.outcome.value, r.outcome.error, r.tolerance,
-                r.outcome.pass ? "pass" : "FAIL", r.cells, r.seconds);
-  print(line);
-}
-
-void write_csv(const std::filesystem::path& file, const std::vector<Row>& rows) {
-  output::CsvFile csv(file, {"id", "suite", "quantity", "reference", "value", "error", "tolerance", "pass", "cells",
-                             "seconds", "source"});
-  for (const Row& r : rows)
-    csv.append({r.id, r.suite, r.quantity, r.outcome.reference, r.outcome.value, r.outcome.error, r.tolerance,
-                std::string(r.outcome.pass ? "true" : "false"), r.cells, r.seconds, r.source});
-  csv.flush();
 }
 
 void check_names(const std::vector<cases::Verification>& catalogue, const VerifyArguments& a) {
@@ -190,26 +146,23 @@ int verify(const VerifyArguments& a) try {
   const auto catalogue = cases::read_catalogue(a.catalogue.empty() ? cases::verification_directory() : a.catalogue);
   check_names(catalogue, a);
   const Workplace place(a.out);
-  std::vector<Row> rows;
-  if (!a.json)
-    print(
-        "id    suite    quantity                                               reference        ours     error "
-        "tolerance        cells    time");
+  std::vector<VerifyRow> rows;
+  if (!a.json) print(heading());
   for (const cases::Verification& v : catalogue) {
     if (!matches(v.suite, a.suites) || !matches(v.id, a.only)) continue;
-    for (const Row& row : verify_case(v, a, sets, place)) {
+    for (const VerifyRow& row : verify_case(v, a, sets, place)) {
       rows.push_back(row);
-      if (!a.json) print_row(row);
+      if (!a.json) print(to_text(row));
     }
   }
-  const auto failed = std::count_if(rows.begin(), rows.end(), [](const Row& r) { return !r.outcome.pass; });
-  const std::string text = to_json(rows).dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
+  const auto failed = std::count_if(rows.begin(), rows.end(), [](const VerifyRow& r) { return !r.outcome.pass; });
   if (!a.out.empty()) {
     write_csv(a.out / "verify.csv", rows);
-    output::write_whole(a.out / "verify.json", text + "\n");
+    output::write_whole(a.out / "verify.md", to_markdown(rows));
+    output::write_whole(a.out / "verify.json", to_json(rows) + "\n");
   }
   if (a.json)
-    print(text);
+    print(to_json(rows));
   else
     print(std::to_string(rows.size()) + " checks, " + std::to_string(failed) + " out of tolerance");
   return failed == 0 ? ok : out_of_tolerance;
@@ -229,7 +182,8 @@ Command verify() {
             app.add_option("--set", a->sets, "over every case: to see the suite fail")->type_name("KEY=VALUE");
             app.add_option("--catalogue", a->catalogue, "a folder of cases with verify.toml, instead of Puffin's own")
                 ->type_name("DIR");
-            app.add_option("--out", a->out, "keep the runs here, with verify.csv and verify.json")->type_name("DIR");
+            app.add_option("--out", a->out, "keep the runs here, with verify.csv, verify.json and the table verify.md")
+                ->type_name("DIR");
             app.add_flag("--json", a->json, "one JSON object on stdout");
             return [a] { return puffin::tools::verify(*a); };
           }};
