@@ -11,8 +11,8 @@ namespace puffin::cases {
 /// the program runs from, then cases/micromodels of the source tree it was built from.
 std::span<const std::string> micromodel_directories();
 
-/// The validation catalogue: share/puffin/verify of the installation that the program runs from, or, where there is none,
-/// cases/verify of the source tree it was built from.
+/// The validation catalogue: share/puffin/verify of the installation that the program runs from, or, where there is
+/// none, cases/verify of the source tree it was built from.
 std::filesystem::path verification_directory();
 
 }  // namespace puffin::cases
