@@ -3,6 +3,7 @@ set(PUFFIN_BUILD_SOURCES
   build_air.cpp
   build_boundaries.cpp
   build_carriers.cpp
+  build_fines.cpp
   check_boundaries.cpp
   initial_air.cpp
   inlet_profile.cpp

@@ -14,7 +14,8 @@ std::unique_ptr<Simulation> build(const Case& c, const StoredFieldReader& stored
   s->surface = load_surface(c);
   if (const auto problems = boundary_problems(c, s->surface); !problems.empty()) throw CaseError(problems);
   s->tree = std::make_shared<const lbm::geometry::TriangleTree>(s->surface.mesh);
-  if (c.air.model == AirModel::lbm || c.numerics.dx) s->dx = cell_size(c.numerics, s->surface.volume);
+  if (c.air.model == AirModel::lbm || c.numerics.dx || c.numerics.cells)
+    s->dx = cell_size(c.numerics, s->surface.volume);
   complete_file_profiles(s->surface, s->description);
   if (const auto* run = std::get_if<RunField>(&c.air.frozen); run && c.air.model == AirModel::frozen) {
     if (!stored_field) throw std::invalid_argument("air.field: this program cannot read the field of another run");

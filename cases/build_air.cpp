@@ -116,6 +116,37 @@ void build_lattice(const LatticeNumbers& numbers, Simulation& s) {
   s.state.spreader = coupling::Spreader(s.state.air->rows.slots());
 }
 
+/// Cells in which fines are carried by a field that does not change; nothing is collided or streamed there.
+void build_frozen_cells(Simulation& s) {
+  const Case& c = s.description;
+  const Vec3 low = s.tree->min(), size = s.tree->max() - low;
+  double speed = 0.0;  // at 17^3 points: the corners, where linear fields are fastest, and what lies between
+  constexpr int parts = 16;
+  for (int k = 0; k <= parts; ++k)
+    for (int j = 0; j <= parts; ++j)
+      for (int i = 0; i <= parts; ++i)
+        speed = std::max(speed, s.models.frozen_air(low + size.cwiseProduct(Vec3(i, j, k)) / parts).norm());
+  double diffusivity = 0.0;
+  for (const Scalar& scalar : c.fines->scalars) diffusivity = std::max(diffusivity, scalar.diffusion / c.air.density);
+  auto& rule = s.models.time_step;
+  rule.reference_dt = c.stop.time / 100.0;
+  if (speed > 0.0)
+    rule.reference_dt = std::min(rule.reference_dt, c.numerics.lattice_speed * s.dx / speed);
+  else if (diffusivity > 0.0)
+    rule.reference_dt = std::min(rule.reference_dt, 0.1 * s.dx * s.dx / diffusivity);
+  if (c.numerics.time_step == TimeStepRule::given) rule.reference_dt = c.numerics.time_step_seconds;
+  LatticeNumbers numbers;
+  numbers.dt = rule.reference_dt;
+  build_lattice(numbers, s);
+  const double unit = s.state.scale.dt / s.dx;
+  lbm::set_cells(
+      [&](const Vec3& x) {
+        const Vec3 u = s.models.frozen_air(x) * unit;
+        return lbm::InitialCell{0.0, {u[0], u[1], u[2]}, {}};
+      },
+      *s.state.air);
+}
+
 }  // namespace
 
 lbm::Law law_of(Collision collision) {
@@ -137,6 +168,8 @@ void build_air(Simulation& s) {
   const AreaOf area_of = [&](const std::string& patch) { return s.surface.area_of(patch); };
   s.reference_speed = reference_speed(c, area_of);
   auto& rule = s.models.time_step;
+  if (c.air.model == AirModel::frozen) s.models.frozen_air = from_file(c, "air.field", [&] { return frozen_air(s); });
+  if (c.air.model == AirModel::frozen && c.fines) return build_frozen_cells(s);
   if (c.air.model != AirModel::lbm) {
     // No lattice: the step only says how often the loads are renewed.
     rule.reference_dt = c.numerics.time_step == TimeStepRule::given ? c.numerics.time_step_seconds
@@ -144,7 +177,6 @@ void build_air(Simulation& s) {
     s.state.scale = {s.dx, rule.reference_dt, std::max(c.air.density, 1e-12)};
     std::vector<lbm::Boundary> unused;
     describe_patches(c, s.surface, unused, s.models.patches);
-    if (c.air.model == AirModel::frozen) s.models.frozen_air = from_file(c, "air.field", [&] { return frozen_air(s); });
     return;
   }
   if (!(s.reference_speed > 0.0))

@@ -251,38 +251,4 @@ void build_carriers(Simulation& s) {
   s.state.fines = coupling::Fines(s.state.carriers.carriers, s.description.fines ? c.fines_each : 0.0, triangles);
 }
 
-void build_fines(Simulation& s) {
-  const Fines& f = *s.description.fines;
-  if (!f.micromodels.empty()) s.models.fines = read_micromodels(f.micromodels);
-  if (!s.state.air) return;
-  const lbm::Air& air = *s.state.air;
-  s.state.routes = lbm::find_routes(air, s.state.fluxes);
-  std::vector<int> opening_patch(air.rows.slots(), -1);
-  for (const auto* list : {&air.links.inlets, &air.links.outlets})
-    for (const auto& link : *list) {
-      const auto& run = air.rows.runs()[link.run];
-      for (const auto& o : s.state.routes.openings)
-        if (o.slot == link.slot && o.direction == link.direction) {
-          const int axis_direction = 2 * o.axis + (o.sign > 0 ? 1 : 2);
-          opening_patch[link.slot + lbm::neighbour_offset(run, axis_direction)] = link.patch;
-        }
-    }
-  const int sets = static_cast<int>(f.scalars.size());
-  const int patches = static_cast<int>(s.models.patches.size());
-  s.state.scalars = lbm::ScalarFields(air.rows, coupling::mechanisms * sets, opening_patch);
-  s.state.budget = lbm::ScalarBudget(air.rows, coupling::mechanisms * sets, patches);
-  for (const Scalar& scalar : f.scalars) {
-    lbm::ScalarLaw law;
-    law.scheme = scalar.scheme == ScalarScheme::upwind     ? lbm::Scheme::upwind
-                 : scalar.scheme == ScalarScheme::minmod   ? lbm::Scheme::minmod
-                 : scalar.scheme == ScalarScheme::van_leer ? lbm::Scheme::van_leer
-                                                           : lbm::Scheme::mc;
-    law.wall = scalar.wall == ScalarWall::absorb ? lbm::WallRule::absorb : lbm::WallRule::reflect;
-    for (int m = 0; m < coupling::mechanisms; ++m) {
-      s.models.scalars.scalar.push_back(law);
-      s.models.diffusion.push_back(scalar.diffusion / s.description.air.density);
-    }
-  }
-}
-
 }  // namespace puffin::cases

@@ -69,7 +69,7 @@ const Features features{.wall_model = no,
                         .body_force_file = yes,
                         .velocity_friction = yes,
                         .rolling_friction = yes,
-                        .fixed_values = no};
+                        .fixed_values = yes};
 
 // clang-format off
 template <> std::span<const Choice> choices<AirModel>() { return air_models; }

@@ -1,6 +1,7 @@
 #pragma once
 // Where the files that come with Puffin are.
 
+#include <filesystem>
 #include <span>
 #include <string>
 
@@ -9,5 +10,9 @@ namespace puffin::cases {
 /// Folders searched for micro-model files after the case file's own: share/puffin/micromodels of the installation that
 /// the program runs from, then cases/micromodels of the source tree it was built from.
 std::span<const std::string> micromodel_directories();
+
+/// The validation catalogue: share/puffin/verify of the installation that the program runs from, or, where there is
+/// none, cases/verify of the source tree it was built from.
+std::filesystem::path verification_directory();
 
 }  // namespace puffin::cases

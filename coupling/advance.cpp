@@ -154,6 +154,9 @@ void step_air(const Models& models, int steps, double rescale, State& s) {
   s.effort.steps_at_reference_dt += steps * s.scale.dt / models.time_step.reference_dt;
 }
 
+/// Whether the lattice computes the air. A frozen field may have cells too: the fines need them.
+bool computes_air(const Models& models, const State& s) { return s.air && !models.frozen_air; }
+
 /// Velocity of the air and drag coefficient at every carrier.
 void find_loads(const Models& models, double interval, State& s) {
   dem::Carriers& c = s.carriers.carriers;
@@ -161,7 +164,7 @@ void find_loads(const Models& models, double interval, State& s) {
   std::vector<int> which(count);
   for (std::size_t p = 0; p < count; ++p) which[p] = static_cast<int>(p);
   std::vector<Vec3> velocity(count, Vec3::Zero());
-  if (s.air) {
+  if (computes_air(models, s)) {
     interpolate(s.stencils, s.air->moments, count, s.samples);
     for (std::size_t p = 0; p < count; ++p) velocity[p] = s.samples.velocity_lu[p] * s.scale.speed();
   } else if (models.frozen_air) {
@@ -187,10 +190,10 @@ void find_loads(const Models& models, double interval, State& s) {
       middle[p] = velocity[p] + (c.velocity[p] - velocity[p]) * std::exp(-0.5 * interval * beta[p] / c.mass[p]);
     drag_coefficients(models.drag, models.air, which, velocity, middle, c.single_radius, c.carriers, solid, beta);
   }
-  if (s.air)
+  if (computes_air(models, s))
     for (const int p : s.stencils.outside()) beta[p] = 0.0;  // no air there: nothing drags
   const bool harmless = !volume.empty() && load_bound(largest_fraction, beta, volume, interval, s.scale) <= 1.0;
-  if (s.air && models.two_way && !harmless) {
+  if (computes_air(models, s) && models.two_way && !harmless) {
     std::vector<double> scratch(count, 0.0);
     limit_drag(s.stencils, interval, s.scale, s.spreader, scratch, beta);
   }
@@ -249,8 +252,8 @@ std::optional<double> counted_from(const Models& models, const State& s) {
 }
 
 void move_fines(const Models& models, std::int64_t steps, double interval, State& s) {
-  if (!models.fines || !s.air) return;
-  {
+  if (s.scalars.scalars() == 0 || !s.air) return;
+  if (models.fines) {
     const Stopwatch watch(s.effort.fines);
     const double before = s.fines.to_air[0].value() + s.fines.to_air[1].value() + s.fines.to_air[2].value();
     s.release.by_contacts(s.events.begun, counted_from(models, s), s.carriers.carriers, *models.fines, s.cells, s.fines,
@@ -283,7 +286,7 @@ void carry_fines(const Models& models, bool now, State& s) {
   lbm::ScalarOptions options = models.scalars;
   for (std::size_t k = 0; k < options.scalar.size(); ++k)
     options.scalar[k].diffusivity = s.scale.viscosity_lu(models.diffusion[k]);
-  lbm::find_mass_fluxes(*s.air, s.routes, s.fluxes);
+  if (computes_air(models, s)) lbm::find_mass_fluxes(*s.air, s.routes, s.fluxes);  // a frozen field's stay
   try {
     lbm::advance_scalars(s.air->rows, s.fluxes, static_cast<double>(s.steps_since_scalars), options, s.scalars,
                          s.budget);
@@ -319,13 +322,13 @@ void advance(const Models& models, double until, State& s) {
   if (s.air) {
     {
       const Stopwatch watch(s.effort.exchange);
-      give_reaction(interval, s);
+      if (computes_air(models, s)) give_reaction(interval, s);
       std::vector<int> all(s.carriers.carriers.size());
       for (std::size_t p = 0; p < all.size(); ++p) all[p] = static_cast<int>(p);
       s.stencils_at = {s.carriers.carriers.position, s.carriers.carriers.radius};
       s.stencils.build(s.cells, s.stencils_at.position, s.stencils_at.radius, all);
     }
-    step_air(models, steps, rescale, s);
+    if (computes_air(models, s)) step_air(models, steps, rescale, s);
   }
   s.events.clear();
   if (s.carriers.carriers.size() > 0) {
@@ -340,7 +343,7 @@ void advance(const Models& models, double until, State& s) {
     step_carriers(models, interval, s);
     s.first_motion.update(s.carriers.carriers, s.time + interval);
     count_collisions(s.events.begun, s.carriers.carriers, counted_from(models, s), s.collisions);
-    if (s.air && models.two_way) {
+    if (computes_air(models, s) && models.two_way) {
       s.impulse_on_air.resize(s.carriers.carriers.size());
       for (std::size_t p = 0; p < s.impulse_on_air.size(); ++p) s.impulse_on_air[p] = -s.carriers.drag_impulse[p];
       add_field_reaction(interval, s);
@@ -348,7 +351,7 @@ void advance(const Models& models, double until, State& s) {
   }
   s.time += interval;
   move_fines(models, steps, interval, s);
-  carry_fines(models, false, s);
+  carry_fines(models, s.time >= until * (1.0 - 1e-12), s);  // the caller reads them at `until`
   if (s.carriers.carriers.size() > 0) remove_departed(models, s);
 }
 

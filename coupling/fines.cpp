@@ -39,10 +39,21 @@ double Ledger::error() const {
   return sum.value() / loaded;
 }
 
+namespace {
+
+double sum_over_patches(const std::vector<lbm::CompensatedSum>& patches) {
+  lbm::CompensatedSum sum;
+  for (const auto& patch : patches) sum.add(patch.value());
+  return sum.value();
+}
+
+}  // namespace
+
 Ledger ledger(const Fines& fines, const lbm::ScalarFields& fields, const lbm::ScalarBudget& budget, int set) {
   Ledger books;
-  books.loaded = fines.loaded;
-  lbm::CompensatedSum inside, outside, walls;
+  lbm::CompensatedSum inside, outside, walls, loaded;
+  loaded.add(fines.loaded);
+  if (set < static_cast<int>(fines.placed.size())) loaded.add(fines.placed[set]);
   for (std::size_t id = 0; id < fines.left.size(); ++id) (fines.emitted[id] ? outside : inside).add(fines.left[id]);
   books.on_carriers = inside.value();
   books.on_emitted_carriers = outside.value();
@@ -53,12 +64,14 @@ Ledger ledger(const Fines& fines, const lbm::ScalarFields& fields, const lbm::Sc
     Ledger::Shares& shares = books.by_mechanism[m];
     shares.released = fines.to_air[m].value();
     shares.in_air = lbm::total(fields, scalar);
-    shares.emitted = lbm::gone(budget, scalar) - deposited;
+    shares.emitted = sum_over_patches(budget.left.at(scalar));
+    loaded.add(sum_over_patches(budget.entered.at(scalar)));
     walls.add(deposited);
     books.in_air += shares.in_air;
     books.emitted += shares.emitted;
   }
   books.on_walls = walls.value();
+  books.loaded = loaded.value();
   return books;
 }
 

@@ -31,9 +31,10 @@ struct Fines {
   std::vector<double> left;           // still on the carrier, 0 <= left <= initial
   std::vector<std::uint8_t> emitted;  // 1: the carrier left the device, with its fines
   // by wall triangle
-  std::vector<double> stuck;  // left there by carriers that hit it
+  std::vector<double> stuck;   // left there by carriers that hit it
+  std::vector<double> placed;  // by set: in the air at the start
   // totals since the start
-  double loaded = 0.0;
+  double loaded = 0.0;  // on the carriers
   std::array<lbm::CompensatedSum, mechanisms> to_air;
   lbm::CompensatedSum to_wall;
   std::int64_t without_air = 0;  // contacts so far outside the air that nothing could be released
@@ -55,12 +56,12 @@ void mark_emitted(std::span<const std::int64_t> ids, Fines& fines);
 
 /// The books of one set of scalars, in fines. loaded = the sum of the other five.
 struct Ledger {
-  double loaded = 0.0;
+  double loaded = 0.0;       // on carriers, in the air at the start, and brought in through openings
   double on_carriers = 0.0;  // in the device
   double on_emitted_carriers = 0.0;
   double on_walls = 0.0;  // left by carriers, and deposited from the air
   double in_air = 0.0;
-  double emitted = 0.0;  // left with the air, net of what openings brought in
+  double emitted = 0.0;  // left with the air
   struct Shares {
     double released = 0.0, in_air = 0.0, emitted = 0.0;
   };

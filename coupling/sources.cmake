@@ -10,6 +10,7 @@ set(PUFFIN_COUPLING_SOURCES
   field_forces.cpp
   fines.cpp
   first_motion.cpp
+  frozen_fluxes.cpp
   health.cpp
   kernel.cpp
   release_fines.cpp

@@ -116,6 +116,8 @@ class Checks {
       say("numerics.reference_speed", "nothing in the case says how fast the air will be (no inlet): give a speed");
     if (a.model != AirModel::lbm && !c_.carriers && !c_.fines)
       say("air.model", "without moving air, carriers or fines there is nothing to simulate");
+    if (a.model == AirModel::frozen && c_.fines && !n.dx && !n.cells)
+      say("numerics.dx", "fines travel from cell to cell: give the cell size 'dx', in frozen air too");
     if (a.model == AirModel::none && c_.fines && !c_.carriers)
       say("air.model", "fines travel in air: give model \"lbm\" or \"frozen\"");
   }

@@ -21,10 +21,10 @@ void fields(auto& archive, Is<dem::RestMemory> auto& memory) {
 }
 
 void fields(auto& archive, Is<dem::Contact> auto& contact) {
-  auto& [phase, a, b, triangle, next_a, next_b, stiffness, knee_stiffness, offset, normal, slip, roll, force,
-         normal_force, use, hold, time_start, normal_speed, tangential_speed, max_force, max_overlap] = contact;
-  archive(phase, a, b, triangle, next_a, next_b, stiffness, knee_stiffness, offset, normal, slip, roll, force,
-          normal_force, use, hold, time_start, normal_speed, tangential_speed, max_force, max_overlap);
+  auto& [phase, a, b, triangle, next_a, next_b, stiffness, knee_stiffness, slip_stiffness, offset, normal, slip, roll,
+         force, normal_force, use, hold, time_start, normal_speed, tangential_speed, max_force, max_overlap] = contact;
+  archive(phase, a, b, triangle, next_a, next_b, stiffness, knee_stiffness, slip_stiffness, offset, normal, slip, roll,
+          force, normal_force, use, hold, time_start, normal_speed, tangential_speed, max_force, max_overlap);
 }
 
 void fields(auto& archive, Is<dem::WallPlane> auto& plane) {

@@ -40,8 +40,8 @@ void fields(auto& archive, Is<Extremes> auto& extremes) {
 }
 
 void fields(auto& archive, Is<Fines> auto& fines) {
-  auto& [initial, left, emitted, stuck, loaded, to_air, to_wall, without_air] = fines;
-  archive(initial, left, emitted, stuck, loaded, to_air, to_wall, without_air);
+  auto& [initial, left, emitted, stuck, placed, loaded, to_air, to_wall, without_air] = fines;
+  archive(initial, left, emitted, stuck, placed, loaded, to_air, to_wall, without_air);
 }
 
 void fields(auto& archive, Is<Collisions> auto& collisions) {
@@ -64,9 +64,9 @@ namespace {
 /// What is neither air nor carriers nor fines.
 void time_fields(auto& archive, Is<State> auto& state) {
   auto& [time, scale, step_factor, air, drive, inlet_way, cells, touched, carriers, fines, collisions, first_motion,
-         departures, events, stencils, stencils_at, spread_on, samples, spreader, impulse_on_air, momentum, loads,
-         release, scalars, budget, fluxes, routes, steps_since_scalars, seconds_since_scalars, steps_per_scalar_update,
-         airborne, effort, extremes] = state;
+         departures, events, stencils, stencils_at, spread_on, samples, gradients, spreader, impulse_on_air, momentum,
+         loads, release, scalars, budget, fluxes, routes, steps_since_scalars, seconds_since_scalars,
+         steps_per_scalar_update, airborne, effort, extremes] = state;
   archive(time, scale.dt, step_factor, inlet_way, collisions, departures, stencils_at.position, stencils_at.radius,
           impulse_on_air, momentum, steps_since_scalars, seconds_since_scalars, steps_per_scalar_update, airborne,
           effort, extremes);

@@ -76,6 +76,16 @@ output::HistoryRow history_row(const cases::Simulation& s, const DropReader& dro
   return row;
 }
 
+std::vector<output::StatsColumn> stats_columns() {
+  std::vector<output::StatsColumn> columns;
+  for (std::size_t k = 0; k < output::history_columns().size(); ++k)
+    columns.push_back({output::history_columns()[k], output::history_units()[k]});
+  columns.push_back({"kinetic_energy", "m^2/s^2"});
+  for (const char* of : {"air_momentum_", "carrier_momentum_"})
+    for (const char* axis : {"x", "y", "z"}) columns.push_back({std::string(of) + axis, "kg m/s"});
+  return columns;
+}
+
 Recorder::Recorder(const cases::Simulation& s, const output::OutputFolder& folder, const RecorderState* resume)
     : folder_(folder), drops_(s), points_(s) {
   const cases::Output& out = s.description.output;
@@ -87,7 +97,8 @@ Recorder::Recorder(const cases::Simulation& s, const output::OutputFolder& folde
   if (resume) {
     statistics_.next = resume->statistics_next;
     carriers_.next = resume->carriers_next;
-    bool fits = resume->fields_next.size() == fields_.size() && resume->lines.size() == lines_.size();
+    bool fits = resume->fields_next.size() == fields_.size() && resume->lines.size() == lines_.size() &&
+                resume->totals.size() == resume->history.size();
     for (std::size_t k = 0; fits && k < lines_.size(); ++k)
       fits = resume->lines[k].inside.size() == resume->lines[k].sum.size() &&
              (resume->lines[k].sum.empty() ||
@@ -95,6 +106,7 @@ Recorder::Recorder(const cases::Simulation& s, const output::OutputFolder& folde
     if (!fits) throw coupling::CheckpointDamaged("its section 'outputs' does not fit the outputs of this case");
     for (std::size_t k = 0; k < fields_.size(); ++k) fields_[k].next = resume->fields_next[k];
     history_ = resume->history;
+    totals_ = resume->totals;
     lines_ = resume->lines;
     moved_ = resume->moved;
   }
@@ -134,6 +146,7 @@ RecorderState Recorder::state() const {
   r.carriers_next = carriers_.next;
   for (const auto& field : fields_) r.fields_next.push_back(field.next);
   r.history = history_;
+  r.totals = totals_;
   r.lines = lines_;
   r.moved = moved_;
   const output::CsvFile* tables[] = {history_csv_.get(), probes_csv_.get(), planes_csv_.get(), forces_csv_.get(),
@@ -154,13 +167,17 @@ void Recorder::sync() {
 
 /// stats.h5 anew: a kill in the middle of HDF5's own writing would leave a file that nobody can read.
 void Recorder::write_stats() {
-  std::vector<output::StatsColumn> columns;
-  for (std::size_t k = 0; k < output::history_columns().size(); ++k)
-    columns.push_back({output::history_columns()[k], output::history_units()[k]});
   const auto file = folder_.file("stats.h5"), temporary = folder_.file("stats.h5.part");
   {
-    output::StatsFile stats(temporary, columns);
-    for (const output::HistoryRow& row : history_) stats.append(output::values(row));
+    output::StatsFile stats(temporary, stats_columns());
+    for (std::size_t n = 0; n < history_.size(); ++n) {
+      std::vector<double> row = output::values(history_[n]);
+      const Totals& t = totals_[n];
+      row.push_back(t.kinetic_energy);
+      row.insert(row.end(), t.air_momentum.begin(), t.air_momentum.end());
+      row.insert(row.end(), t.carrier_momentum.begin(), t.carrier_momentum.end());
+      stats.append(row);
+    }
     stats.flush();
   }
   output::finish_file(temporary, file);
@@ -217,6 +234,7 @@ void Recorder::record(const cases::Simulation& s) {
 void Recorder::record_statistics(const cases::Simulation& s) {
   const output::HistoryRow row = history_row(s, drops_);
   history_.push_back(row);
+  totals_.push_back(read_totals(s));
   output::append(*history_csv_, row);
   if (!s.state.air) return;
   const cases::Output& out = s.description.output;

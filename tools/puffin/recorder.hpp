@@ -9,6 +9,7 @@
 #include "cases/build.hpp"
 #include "tools/output/csv_file.hpp"
 #include "tools/output/events_journal.hpp"
+#include "tools/output/stats_file.hpp"
 #include "tools/output/output_folder.hpp"
 #include "tools/output/summary.hpp"
 #include "tools/output/tables.hpp"
@@ -72,8 +73,12 @@ class Recorder {
   std::unique_ptr<output::EventsJournal> events_;
   std::unique_ptr<output::VtkSeries> fields_vtk_, carriers_vtk_, walls_vtk_;
   std::vector<LineSums> lines_;
+  std::vector<Totals> totals_;  // one a row of the history
   MovedFines moved_;
 };
+
+/// Columns of stats.h5: those of history.csv, then the totals of the domain.
+std::vector<output::StatsColumn> stats_columns();
 
 /// One row of the history at this moment.
 output::HistoryRow history_row(const cases::Simulation& s, const DropReader& drops);

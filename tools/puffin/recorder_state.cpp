@@ -29,14 +29,19 @@ static void fields(auto& archive, Is<PointReading> auto& reading) {
   archive(velocity, pressure);
 }
 
+static void fields(auto& archive, Is<Totals> auto& totals) {
+  auto& [kinetic_energy, air_momentum, carrier_momentum] = totals;
+  archive(kinetic_energy, air_momentum, carrier_momentum);
+}
+
 static void fields(auto& archive, Is<LineSums> auto& line) {
   auto& [sum, inside, samples] = line;
   archive(sum, inside, samples);
 }
 
 static void fields(auto& archive, Is<RecorderState> auto& state) {
-  auto& [statistics_next, carriers_next, fields_next, history, lines, moved, tables, events, series] = state;
-  archive(statistics_next, carriers_next, fields_next, history, lines, moved, tables, events, series);
+  auto& [statistics_next, carriers_next, fields_next, history, totals, lines, moved, tables, events, series] = state;
+  archive(statistics_next, carriers_next, fields_next, history, totals, lines, moved, tables, events, series);
 }
 
 void save(const RecorderState& state, std::vector<std::byte>& bytes) { coupling::ByteWriter{bytes}(state); }

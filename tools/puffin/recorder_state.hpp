@@ -26,6 +26,7 @@ struct RecorderState {
   double statistics_next = 0.0, carriers_next = 0.0;  // [s]
   std::vector<double> fields_next;                    // [s]
   std::vector<output::HistoryRow> history;
+  std::vector<Totals> totals;  // one a row of the history
   std::vector<LineSums> lines;
   MovedFines moved;
   // How far the files were.

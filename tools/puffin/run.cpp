@@ -73,10 +73,14 @@ int run_command(const RunOptions& options) {
   facts.wall_clock = stepping.memory().wall_clock + seconds();
   const output::Summary summary = summarize(s, stepping.recorder(), facts);
   output::write_summary(folder.file("summary.json"), summary);
-  if (ending.code != stopped && ending.code != interrupted) make_pictures_and_report(folder.path(), options.quiet);
+  if (options.report && ending.code != stopped && ending.code != interrupted)
+    make_pictures_and_report(folder.path(), options.quiet);
   if (ending.code == diverged) log_error(ending.message);
   if (ending.code == stopped || ending.code == interrupted)
     log_info(ending.message + " at t = " + as_time(s.state.time) + "; --resume goes on from here");
+  output::Status last = output::read_status(folder.file("status.json"));
+  last.state = facts.state;
+  output::write_status(folder.file("status.json"), last);
   if (options.json) print(output::summary_json(summary));
   return ending.code;
 }

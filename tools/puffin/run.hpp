@@ -20,7 +20,8 @@ struct RunOptions {
   bool resume = false;
   double walltime = std::numeric_limits<double>::infinity();  // [s]
   bool quiet = false;
-  bool json = false;  // one JSON object on stdout, nothing else there
+  bool json = false;   // one JSON object on stdout, nothing else there
+  bool report = true;  // report.html at the end
 };
 
 /// Runs the case; returns an exit code of the interface (0, 5, 75, 130). Errors are thrown.

@@ -1,5 +1,7 @@
 #include "tools/puffin/sampling.hpp"
 
+#include <oneapi/tbb/parallel_reduce.h>
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -64,6 +66,39 @@ DropReading DropReader::read(const cases::Simulation& s) const {
   reading.static_drop = p_in - p_out;
   reading.total_to_static_drop = (flux > 0.0 ? carried / flux : p_in) - p_out;
   return reading;
+}
+
+Totals read_totals(const cases::Simulation& s) {
+  struct Sums {
+    double energy = 0.0;
+    Vec3 momentum = Vec3::Zero();
+  };
+  Totals totals;
+  if (s.state.air) {
+    const auto& runs = s.state.air->rows.runs();
+    using Range = oneapi::tbb::blocked_range<std::size_t>;
+    const Sums sums = oneapi::tbb::parallel_deterministic_reduce(
+        Range(0, runs.size(), 64), Sums{},
+        [&](const Range& range, Sums sum) {
+          for (std::size_t r = range.begin(); r < range.end(); ++r)
+            for (int n = 0; n < runs[r].count; ++n) {
+              const auto m = lbm::moments_at(*s.state.air, runs[r].first + n);
+              const Vec3 u(m.ux, m.uy, m.uz);
+              sum.energy += 0.5 * u.squaredNorm();
+              sum.momentum += (1.0 + m.density_excess) * u;
+            }
+          return sum;
+        },
+        [](const Sums& a, const Sums& b) {
+          return Sums{a.energy + b.energy, a.momentum + b.momentum};
+        });
+    const double speed = s.state.scale.speed(), dx = s.state.air->rows.dx();
+    totals.kinetic_energy = sums.energy * speed * speed / static_cast<double>(s.state.air->rows.active_cells());
+    totals.air_momentum = sums.momentum * (speed * s.models.air.density * dx * dx * dx);
+  }
+  const auto& c = s.state.carriers.carriers;
+  for (std::size_t p = 0; p < c.size(); ++p) totals.carrier_momentum += c.mass[p] * c.velocity[p];
+  return totals;
 }
 
 namespace {

@@ -74,6 +74,15 @@ struct PlaneReading {
   double total_pressure = 0.0;   // flux-weighted mean of p + rho u^2/2 [Pa]
 };
 
+/// Sums over the whole domain.
+struct Totals {
+  double kinetic_energy = 0.0;                               // of the air: mean of u^2/2 over the cells [m^2/s^2]
+  coupling::Vec3 air_momentum = coupling::Vec3::Zero();      // [kg m/s]
+  coupling::Vec3 carrier_momentum = coupling::Vec3::Zero();  // of the carriers inside [kg m/s]
+};
+/// The same bits for every number of threads.
+Totals read_totals(const cases::Simulation& s);
+
 /// Over the cells that the plane passes through: between the two layers of cells around it where they have as many
 /// cells, else the nearer. The lattice keeps mass, so in steady flow every plane across a channel reads one flow rate.
 /// Empty: the plane meets no fluid.

@@ -1,0 +1,102 @@
+#include <cmath>
+#include <stdexcept>
+
+#include "cases/build.hpp"
+#include "cases/micromodel_file.hpp"
+#include "coupling/frozen_fluxes.hpp"
+
+namespace puffin::cases {
+
+namespace {
+
+/// [slot] patch index of the ghosts that lie in an opening, else -1.
+std::vector<int> patches_of_openings(const lbm::Air& air, const lbm::FluxRoutes& routes) {
+  std::vector<int> patch(air.rows.slots(), -1);
+  for (const auto* list : {&air.links.inlets, &air.links.outlets})
+    for (const auto& link : *list) {
+      const auto& run = air.rows.runs()[link.run];
+      for (const auto& o : routes.openings)
+        if (o.slot == link.slot && o.direction == link.direction) {
+          const int axis_direction = 2 * o.axis + (o.sign > 0 ? 1 : 2);
+          patch[link.slot + lbm::neighbour_offset(run, axis_direction)] = link.patch;
+        }
+    }
+  return patch;
+}
+
+/// The values that [[fines.boundary]] holds for one scalar, as amounts in a cell full of air, by patch.
+std::vector<std::optional<double>> fixed_values(const Simulation& s, const std::string& scalar) {
+  std::vector<std::optional<double>> values;
+  for (const ScalarBoundary& b : s.description.fines->boundaries) {
+    if (b.scalar != scalar) continue;
+    const int patch = s.surface.patches.find(b.patch);
+    const auto& drive = s.models.patches.at(static_cast<std::size_t>(patch));
+    if (!drive.is_inlet && !drive.is_outlet)
+      throw std::invalid_argument("fines.boundary: patch '" + b.patch +
+                                  "' is no opening; a value can be held on velocity-inlets and pressure-outlets, and a "
+                                  "wall takes what reaches it with wall = \"absorb\" in [[fines.scalar]]");
+    values.resize(s.models.patches.size());
+    values[static_cast<std::size_t>(patch)] = b.value * std::pow(s.dx, 3);
+  }
+  return values;
+}
+
+/// Fines in the air at the start: exp(-r^2/(2 sigma^2)) at the centres of the cells, scaled to the wanted amount.
+void place_cloud(const GaussianBlob& cloud, const lbm::Rows& rows, std::vector<double>& amount) {
+  double sum = 0.0;
+  for (const auto& run : rows.runs())
+    for (std::ptrdiff_t slot = run.first; slot < run.first + run.count; ++slot) {
+      Vec3 r = rows.centre(slot) - cloud.center;
+      for (int d = 0; d < 3; ++d)  // of the periodic images the nearest
+        if (rows.periodic()[d]) r[d] -= rows.dx() * rows.box()[d] * std::round(r[d] / (rows.dx() * rows.box()[d]));
+      amount[slot] = std::exp(-0.5 * r.squaredNorm() / (cloud.sigma * cloud.sigma));
+      sum += amount[slot];
+    }
+  if (!(sum > 0.0))
+    throw std::invalid_argument("fines.scalar.initial: the cloud lies outside the air; move its center inside");
+  for (const auto& run : rows.runs())
+    for (std::ptrdiff_t slot = run.first; slot < run.first + run.count; ++slot) amount[slot] *= cloud.amount / sum;
+}
+
+lbm::ScalarLaw law_of(const Scalar& scalar) {
+  lbm::ScalarLaw law;
+  law.scheme = scalar.scheme == ScalarScheme::upwind     ? lbm::Scheme::upwind
+               : scalar.scheme == ScalarScheme::minmod   ? lbm::Scheme::minmod
+               : scalar.scheme == ScalarScheme::van_leer ? lbm::Scheme::van_leer
+                                                         : lbm::Scheme::mc;
+  law.wall = scalar.wall == ScalarWall::absorb ? lbm::WallRule::absorb : lbm::WallRule::reflect;
+  return law;
+}
+
+}  // namespace
+
+void build_fines(Simulation& s) {
+  const Fines& f = *s.description.fines;
+  if (!f.micromodels.empty()) s.models.fines = read_micromodels(f.micromodels);
+  if (!s.state.air) return;
+  const lbm::Air& air = *s.state.air;
+  s.state.routes = lbm::find_routes(air, s.state.fluxes);
+  if (s.models.frozen_air)
+    coupling::set_frozen_fluxes(air.rows, s.state.routes, s.state.scale, s.models.frozen_air, s.state.fluxes);
+  const int sets = static_cast<int>(f.scalars.size());
+  s.state.scalars = lbm::ScalarFields(air.rows, coupling::mechanisms * sets, patches_of_openings(air, s.state.routes));
+  s.state.budget = lbm::ScalarBudget(air.rows, coupling::mechanisms * sets, static_cast<int>(s.models.patches.size()));
+  s.state.fines.placed.assign(f.scalars.size(), 0.0);
+  for (int set = 0; set < sets; ++set) {
+    const Scalar& scalar = f.scalars[set];
+    for (int m = 0; m < coupling::mechanisms; ++m) {
+      s.models.scalars.scalar.push_back(law_of(scalar));
+      s.models.diffusion.push_back(scalar.diffusion / s.description.air.density);
+    }
+    // What no carrier brought goes with the first of the scalars of a set: it is nobody's release.
+    const int first = coupling::scalar_index(set, coupling::Mechanism::wall);
+    s.models.scalars.scalar[first].fixed = fixed_values(s, scalar.name);
+    if (scalar.initial) {
+      place_cloud(*scalar.initial, air.rows, s.state.scalars.amount[first]);
+      s.state.fines.placed[set] = lbm::total(s.state.scalars, first);
+    }
+    s.state.airborne = s.state.airborne || scalar.initial || !s.models.scalars.scalar[first].fixed.empty();
+  }
+}
+
+}  // namespace puffin::cases

@@ -1,0 +1,83 @@
+// puffin verify: the quick catalogue passes, and faults put into it are found.
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+
+namespace {
+
+struct Result {
+  int code = -1;
+  std::string out;
+};
+
+Result puffin(const std::string& arguments) {
+  const std::string command = std::string(PUFFIN_BINARY_DIR) + "/puffin " + arguments + " 2>&1";
+  FILE* pipe = popen(command.c_str(), "r");
+  Result result;
+  std::array<char, 4096> buffer;
+  for (std::size_t n = 0; (n = fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) result.out.append(buffer.data(), n);
+  result.code = WEXITSTATUS(pclose(pipe));
+  return result;
+}
+
+TEST(Verify, QuickCataloguePassesAndSaysWhatEveryCheckFound) {
+  const Result result = puffin("verify --quick --json");
+  EXPECT_EQ(result.code, 0) << result.out;
+  const auto json = nlohmann::json::parse(result.out);
+  ASSERT_EQ(json.size(), 1u);
+  ASSERT_GE(json["cases"].size(), 12u);
+  const std::set<std::string> keys{"id",        "suite", "quantity", "reference", "value", "error",
+                                   "tolerance", "pass",  "cells",    "seconds",   "source"};
+  for (const auto& row : json["cases"]) {
+    std::set<std::string> found;
+    for (const auto& [key, value] : row.items()) found.insert(key);
+    EXPECT_EQ(found, keys);
+    EXPECT_TRUE(row["pass"].get<bool>()) << row;
+    EXPECT_LE(row["error"].get<double>(), row["tolerance"].get<double>()) << row;
+    EXPECT_FALSE(row["source"].get<std::string>().empty());
+  }
+}
+
+// 1.806e-5 Pa s + 5 %: f Re of a body force moves by 5 %, the decay of the vortices too; both are known to 1 %.
+TEST(Verify, ViscosityFivePercentTooHighIsOutOfTolerance) {
+  const Result result = puffin("verify --only V01 --only V05 --quick --json --set air.viscosity=1.8963e-5");
+  EXPECT_EQ(result.code, 9) << result.out;
+  const auto json = nlohmann::json::parse(result.out);
+  std::set<std::string> failed;
+  for (const auto& row : json["cases"])
+    if (!row["pass"].get<bool>()) failed.insert(row["id"].get<std::string>());
+  EXPECT_EQ(failed, (std::set<std::string>{"V01", "V05"}));
+}
+
+// The channel of 16 cells of 0.0625 mm gets a wall 0.3 cells further out.
+TEST(Verify, WallOffByThreeTenthsOfACellIsOutOfTolerance) {
+  const Result result = puffin("verify --only V01 --quick --json --set geometry.box.z=1.01875e-3");
+  EXPECT_EQ(result.code, 9) << result.out;
+  bool found = false;
+  const auto json = nlohmann::json::parse(result.out);
+  for (const auto& row : json["cases"])
+    if (row["quantity"].get<std::string>().starts_with("wall position, high side")) {
+      found = true;
+      EXPECT_FALSE(row["pass"].get<bool>());
+      EXPECT_NEAR(row["value"].get<double>(), 0.3, 0.05) << "the tolerance of the wall's place";
+    }
+  EXPECT_TRUE(found);
+}
+
+TEST(Verify, UnknownNamesAreUsageErrorsAndFailedRunsAreFailures) {
+  EXPECT_EQ(puffin("verify --suite flows").code, 2);
+  EXPECT_EQ(puffin("verify --only V99").code, 2);
+  EXPECT_EQ(puffin("verify --set nonsense").code, 2);
+  const Result result = puffin("verify --only V01 --quick --set numerics.nonsense=1");
+  EXPECT_EQ(result.code, 9) << result.out;
+  EXPECT_NE(result.out.find("did not finish"), std::string::npos) << result.out;
+}
+
+}  // namespace

@@ -1,0 +1,193 @@
+// puffin verify: runs the validation catalogue and compares with its references.
+
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+#include "cases/search_path.hpp"
+#include "cases/spelling.hpp"
+#include "tools/output/output_folder.hpp"
+#include "tools/puffin/commands.hpp"
+#include "tools/puffin/console.hpp"
+#include "tools/puffin/exit_codes.hpp"
+#include "tools/puffin/verify_report.hpp"
+#include "tools/puffin/verify_run.hpp"
+
+namespace puffin::tools {
+namespace {
+
+struct VerifyArguments {
+  std::vector<std::string> suites, only, sets;
+  std::filesystem::path catalogue, out;
+  bool quick = false, json = false;
+};
+
+/// A folder for the runs: the user's, kept; or a temporary one, removed at the end.
+class Workplace {
+ public:
+  explicit Workplace(const std::filesystem::path& out) : kept_(!out.empty()) {
+    path_ = kept_ ? out
+                  : std::filesystem::temp_directory_path() /
+                        ("puffin-verify-" + std::to_string(static_cast<long>(getpid())));
+    std::filesystem::create_directories(path_);
+  }
+  ~Workplace() {
+    std::error_code ignored;
+    if (!kept_) std::filesystem::remove_all(path_, ignored);
+  }
+  Workplace(const Workplace&) = delete;
+  Workplace& operator=(const Workplace&) = delete;
+  std::filesystem::path run(const std::string& id, const std::string& name) const { return path_ / "runs" / id / name; }
+  /// The fields of a run are large and are not needed once the case is judged.
+  void forget(const std::string& id) const {
+    std::error_code ignored;
+    if (!kept_) std::filesystem::remove_all(path_ / "runs" / id, ignored);
+  }
+
+ private:
+  std::filesystem::path path_;
+  bool kept_;
+};
+
+bool matches(const std::string& id, const std::vector<std::string>& wanted) {
+  return wanted.empty() || std::find(wanted.begin(), wanted.end(), id) != wanted.end();
+}
+
+/// The checks of a case whose runs are all quick, or all.
+std::vector<cases::Check> checks_of(const cases::Verification& v, bool quick) {
+  std::vector<cases::Check> list;
+  for (const cases::Check& check : v.checks) {
+    const std::vector<std::string> needed = cases::runs_of(v, check);
+    const bool fast = std::all_of(v.runs.begin(), v.runs.end(), [&](const cases::VerificationRun& run) {
+      return run.quick || std::find(needed.begin(), needed.end(), run.name) == needed.end();
+    });
+    if (fast || !quick) list.push_back(check);
+  }
+  return list;
+}
+
+/// A signal ended a run: the rest is not made.
+struct Stopped {
+  int code;
+};
+
+/// Makes a run; an exception or an exit code other than 0 leaves it without output, and is told.
+std::optional<cases::RunOutput> make_run(const cases::VerificationRun& run, const std::vector<cases::Override>& sets,
+                                         const std::filesystem::path& folder, const std::string& label) {
+  RunOptions options;
+  options.case_file = run.case_file;
+  options.sets = run.sets;
+  options.sets.insert(options.sets.end(), sets.begin(), sets.end());
+  options.out = folder;
+  options.quiet = true;
+  options.report = false;
+  try {
+    const int code = run_command(options);
+    if (code == interrupted || code == stopped) throw Stopped{code};
+    if (code == ok) return read_run(folder);
+    log_error(label + ": the run ended with exit code " + std::to_string(code));
+  } catch (const std::exception& e) {
+    log_error(label + ": " + e.what());
+  }
+  return std::nullopt;
+}
+
+std::vector<VerifyRow> verify_case(const cases::Verification& v, const VerifyArguments& a,
+                                   const std::vector<cases::Override>& sets, const Workplace& place) {
+  const std::vector<cases::Check> checks = checks_of(v, a.quick);
+  std::map<std::string, cases::RunOutput> outputs;
+  for (const cases::VerificationRun& run : v.runs) {
+    const bool needed = std::any_of(checks.begin(), checks.end(), [&](const cases::Check& check) {
+      const auto names = cases::runs_of(v, check);
+      return std::find(names.begin(), names.end(), run.name) != names.end();
+    });
+    if (!needed) continue;
+    if (auto output = make_run(run, sets, place.run(v.id, run.name), v.id + ", run " + run.name))
+      outputs[run.name] = *std::move(output);
+  }
+  set_up_log(false);  // the runs are quiet
+  std::vector<VerifyRow> rows;
+  for (const cases::Check& check : checks) {
+    VerifyRow row{v.id, v.suite, check.quantity, check.source, cases::evaluate(v, check, outputs), check.tolerance,
+                  0.0,  0.0};
+    for (const std::string& name : cases::runs_of(v, check))
+      if (const auto found = outputs.find(name); found != outputs.end()) {
+        row.cells = std::max(row.cells, found->second.numbers["cells_fluid"]);
+        row.seconds += found->second.numbers["wall_clock"];
+      }
+    if (!row.outcome.problem.empty()) log_error(v.id + ", " + check.quantity + ": " + row.outcome.problem);
+    rows.push_back(row);
+  }
+  place.forget(v.id);
+  return rows;
+}
+
+void check_names(const std::vector<cases::Verification>& catalogue, const VerifyArguments& a) {
+  std::vector<std::string> ids, suites;
+  for (const cases::Verification& v : catalogue) {
+    ids.push_back(v.id);
+    if (std::find(suites.begin(), suites.end(), v.suite) == suites.end()) suites.push_back(v.suite);
+  }
+  for (const std::string& suite : a.suites)
+    if (!matches(suite, suites))
+      throw UsageError("there is no suite '" + suite + "'; the suites are " + cases::join(suites));
+  for (const std::string& id : a.only)
+    if (!matches(id, ids)) throw UsageError("there is no case '" + id + "'; the cases are " + cases::join(ids));
+}
+
+int verify(const VerifyArguments& a) try {
+  std::vector<cases::Override> sets;
+  for (const std::string& text : a.sets) try {
+      sets.push_back(cases::parse_override(text));
+    } catch (const std::invalid_argument& e) {
+      throw UsageError(e.what());
+    }
+  const auto catalogue = cases::read_catalogue(a.catalogue.empty() ? cases::verification_directory() : a.catalogue);
+  check_names(catalogue, a);
+  const Workplace place(a.out);
+  std::vector<VerifyRow> rows;
+  if (!a.json) print(heading());
+  for (const cases::Verification& v : catalogue) {
+    if (!matches(v.suite, a.suites) || !matches(v.id, a.only)) continue;
+    for (const VerifyRow& row : verify_case(v, a, sets, place)) {
+      rows.push_back(row);
+      if (!a.json) print(to_text(row));
+    }
+  }
+  const auto failed = std::count_if(rows.begin(), rows.end(), [](const VerifyRow& r) { return !r.outcome.pass; });
+  if (!a.out.empty()) {
+    write_csv(a.out / "verify.csv", rows);
+    output::write_whole(a.out / "verify.md", to_markdown(rows));
+    output::write_whole(a.out / "verify.json", to_json(rows) + "\n");
+  }
+  if (a.json)
+    print(to_json(rows));
+  else
+    print(std::to_string(rows.size()) + " checks, " + std::to_string(failed) + " out of tolerance");
+  return failed == 0 ? ok : out_of_tolerance;
+} catch (const Stopped& s) {
+  return s.code;
+}
+
+}  // namespace
+
+namespace commands {
+Command verify() {
+  return {"verify", "run the validation catalogue", [](CLI::App& app) -> Action {
+            auto a = std::make_shared<VerifyArguments>();
+            app.add_option("--suite", a->suites, "flow, scalar, dem, coupling; may be repeated")->type_name("NAME");
+            app.add_option("--only", a->only, "one case, like V01; may be repeated")->type_name("ID");
+            app.add_flag("--quick", a->quick, "what ends within a minute in all");
+            app.add_option("--set", a->sets, "over every case: to see the suite fail")->type_name("KEY=VALUE");
+            app.add_option("--catalogue", a->catalogue, "a folder of cases with verify.toml, instead of Puffin's own")
+                ->type_name("DIR");
+            app.add_option("--out", a->out, "keep the runs here, with verify.csv, verify.json and the table verify.md")
+                ->type_name("DIR");
+            app.add_flag("--json", a->json, "one JSON object on stdout");
+            return [a] { return puffin::tools::verify(*a); };
+          }};
+}
+}  // namespace commands
+
+}  // namespace puffin::tools
