@@ -98,7 +98,11 @@ Vec3 PointField::scattered(const Vec3& x) const {
   nearest(x, 0, static_cast<int>(tree_.size()), 0, near);
   const double reach2 = near.back().first;
   if (near.front().first <= 1e-18 * reach2 || near.size() == 1) return values_[near.front().second];
-  // Weighted least squares of value = c0 + c . (p - x), lengths in units of the reach so that columns compare.
+  // Weighted least squares of value = c0 + c . (p - m), m the middle of the neighbours, lengths in units of the reach
+  // so that columns compare. About m, the slope across a plane or a line of neighbours is a column of zeros, so no
+  // slope.
+  Vec3 middle = Vec3::Zero();
+  for (const auto& [r2, p] : near) middle += points_[p] / static_cast<double>(near.size());
   const double reach = std::sqrt(reach2);
   const auto rows = static_cast<Eigen::Index>(near.size());
   Eigen::MatrixXd a(rows, 4), b(rows, 3);
@@ -107,7 +111,7 @@ Vec3 PointField::scattered(const Vec3& x) const {
     const auto& [r2, p] = near[static_cast<std::size_t>(n)];
     const double weight = reach2 / r2;  // the square root of the weight 1/r^4, up to a factor
     a(n, 0) = weight;
-    a.block<1, 3>(n, 1) = weight / reach * (points_[p] - x).transpose();
+    a.block<1, 3>(n, 1) = weight / reach * (points_[p] - middle).transpose();
     b.row(n) = weight * values_[p].transpose();
     low = low.cwiseMin(values_[p]);
     high = high.cwiseMax(values_[p]);
@@ -115,7 +119,8 @@ Vec3 PointField::scattered(const Vec3& x) const {
   Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> fit;
   fit.setThreshold(1e-10);  // neighbours on a plane or a line say nothing about the slope across it: taken as zero
   fit.compute(a);
-  const Vec3 value = fit.solve(b).row(0).transpose();
+  const Eigen::MatrixXd c = fit.solve(b);
+  const Vec3 value = c.row(0).transpose() + c.bottomRows(3).transpose() * ((x - middle) / reach);
   return value.cwiseMax(low).cwiseMin(high);
 }
 

@@ -77,10 +77,14 @@ void commit(const Rules& rules, Cluster& cluster, State& state, Events& events) 
   state.statistics.largest_overlap = std::max(state.statistics.largest_overlap, cluster.largest_overlap);
 }
 
-void require_finite(const Gathering& g, const State& state) {
-  for (const std::int32_t i : g.awake)
-    if (!state.carriers.position[i].allFinite() || !state.carriers.velocity[i].allFinite())
-      throw std::runtime_error("dem: carrier " + std::to_string(state.carriers.id[i]) +
+/// Before a step too: a search with a place that is no number would look outside its arrays.
+void require_finite(std::span<const Load> loads, const State& state) {
+  const Carriers& all = state.carriers;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (all.rest[i] == Rest::awake &&
+        !(all.position[i].allFinite() && all.velocity[i].allFinite() && all.spin[i].allFinite() &&
+          loads[i].force.allFinite() && loads[i].air_velocity.allFinite() && std::isfinite(loads[i].drag)))
+      throw std::runtime_error("dem: carrier " + std::to_string(all.id[i]) +
                                " has left the finite numbers at t = " + std::to_string(state.time) + " s");
 }
 
@@ -94,6 +98,7 @@ void advance(double duration, const Models& models, const Walls& walls, std::spa
 
   std::fill(state.drag_impulse.begin(), state.drag_impulse.end(), Vector3d::Zero());
   wake_by_load(rules, loads, state);
+  require_finite(loads, state);
   predict(duration, rules, walls, loads, state, g);
   for (bool first = true;; first = false) {
     if (!g.awake.empty()) {
@@ -128,7 +133,7 @@ void advance(double duration, const Models& models, const Walls& walls, std::spa
   ++state.statistics.steps;
   state.statistics.free_flights += static_cast<std::int64_t>(g.awake.size() - in_clusters);
   state.statistics.sleeping_steps += static_cast<std::int64_t>(state.carriers.size() - g.awake.size());
-  require_finite(g, state);
+  require_finite(loads, state);
 }
 
 }  // namespace puffin::dem

@@ -51,10 +51,12 @@ TEST_F(HealthOf, ACarrierOutsideTheWallsIsNamedWithItsPlace) {
 
 TEST_F(HealthOf, AnOverlapBeyondTheLimitIsNamed) {
   auto& contacts = sim_->state.carriers.contacts;
-  const auto live = std::find_if(contacts.begin(), contacts.end(),
-                                 [](const dem::Contact& c) { return c.phase != dem::ContactPhase::free; });
-  ASSERT_NE(live, contacts.end());
-  live->max_overlap = 0.31 * 7e-5;
+  dem::Contact deep;
+  deep.phase = dem::ContactPhase::bonded;
+  deep.a = 0;
+  deep.triangle = 0;
+  deep.max_overlap = 0.31 * 7e-5;
+  contacts.push_back(deep);
   expect_complaint("by 0.31 of its diameter");
 }
 

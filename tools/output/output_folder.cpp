@@ -43,7 +43,9 @@ std::string timestamp() {
 void make_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
-  if (error) fail(folder, "create the folder", error.value());
+  if (error)  // not fail(): a missing parent would have been made
+    throw OutputError("cannot create the folder " + folder.string() + ": " + error.message() +
+                      "; choose another place with --out");
   if (access(folder.c_str(), W_OK) != 0) fail(folder, "write into", errno);
 }
 
@@ -57,7 +59,9 @@ fs::path fresh_folder(const fs::path& parent) {
     const fs::path folder = parent / (attempt == 1 ? stamp : stamp + "-" + std::to_string(attempt));
     std::error_code error;
     if (fs::create_directory(folder, error)) return folder;
-    if (error) fail(folder, "create the folder", error.value());
+    if (error)  // not fail(): a missing parent would have been made
+      throw OutputError("cannot create the folder " + folder.string() + ": " + error.message() +
+                        "; choose another place with --out");
   }
   throw OutputError(parent.string() + " holds a thousand runs of this second; choose a folder with --out");
 }

@@ -37,36 +37,46 @@ void expect_equal(const Checkpoint& a, const Checkpoint& b) {
 
 TEST(Checkpoint, TheSceneHasWhatACheckpointMustKeep) {
   const auto sim = coupled_simulation();
-  run(*sim, 1e-3);
   const State& s = sim->state;
+  bool touching = false;
+  for (int n = 1; n <= 20; ++n) {
+    run(*sim, 5e-5 * n);
+    touching = touching || s.carriers.contacts.size() > s.carriers.free_contacts.size();
+  }
   EXPECT_TRUE(s.airborne);
   EXPECT_GT(s.fines.to_wall.value(), 0.0);
   EXPECT_GT(s.collisions.wall, 0.0);
   EXPECT_FALSE(s.departures.empty());
   EXPECT_FALSE(s.impulse_on_air.empty());
   EXPECT_GT(s.effort.rescalings, 0);
-  EXPECT_GT(s.carriers.contacts.size(), s.carriers.free_contacts.size());
+  EXPECT_TRUE(touching);
   EXPECT_TRUE(s.first_motion.time().has_value());
 }
 
 TEST(Checkpoint, ARestoredStateGoesOnBitForBit) {
   const auto whole = coupled_simulation();
+  std::vector<double> stops;  // a stop shortens an exchange, so the control makes the same ones
   // Odd numbers of steps and exchanges, before and after the first release, the first departure and a rescaling.
   for (const double at : {0.011e-3, 0.2e-3, 0.7e-3, 1.3e-3}) {
     run(*whole, at);
+    stops.push_back(at);
     const Checkpoint middle = saved(*whole);
     const auto resumed = coupled_simulation();
     if (at == 0.7e-3) run(*resumed, 1e-3);  // restoring overwrites whatever was there, forces on the lattice too
     restore(middle, resumed->state);
-    expect_equal(saved(*resumed), middle);
+    {
+      SCOPED_TRACE("restored at " + std::to_string(1e3 * at) + " ms");
+      expect_equal(saved(*resumed), middle);
+    }
     const auto control = coupled_simulation();
-    run(*control, at);
+    for (const double stop : stops) run(*control, stop);
     const double end = at + 0.25e-3;
     run(*control, end);
     {
       const oneapi::tbb::global_control one(oneapi::tbb::global_control::max_allowed_parallelism, 1);
       run(*resumed, end);
     }
+    SCOPED_TRACE("gone on from " + std::to_string(1e3 * at) + " ms");
     expect_equal(saved(*resumed), saved(*control));
   }
 }
