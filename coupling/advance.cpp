@@ -54,7 +54,7 @@ bool all_asleep(const dem::Carriers& carriers) {
       if (speed < lbm::speed_limit && std::abs(m.density_excess) < 0.5) continue;
       const Vec3 x = air.rows.centre(run.first + n);
       diverge(
-          "the air diverged at step %lld (t = %.6g s): out of range at [%.5g, %.5g, %.5g] m: "
+          "the air diverged at step %lld (t = %.6g s): cells out of range, the first at [%.5g, %.5g, %.5g] m: "
           "speed %.4g (limit %.2g) and density %.4g in lattice units; %.4g m/s. Likely causes: lattice_speed too "
           "high, dx too coarse for the narrowest gap, or an inlet faster than the reference speed",
           static_cast<long long>(air.steps), time, x[0], x[1], x[2], speed, lbm::speed_limit, 1.0 + m.density_excess,
@@ -64,15 +64,17 @@ bool all_asleep(const dem::Carriers& carriers) {
           time);
 }
 
-/// Sets what the boundaries do in a step whose middle is at `time`.
-void set_drive(const Models& models, double time, const Scale& scale, lbm::Drive& drive) {
+/// Sets what drives a step that begins at `start`: boundaries as in its middle; the body force as at its start, since a
+/// velocity holds half the force of the step to come, so that two halves make the trapezoidal rule.
+void set_drive(const Models& models, double start, const Scale& scale, lbm::Drive& drive) {
+  const double time = start + 0.5 * scale.dt;
   drive.speed.assign(models.patches.size(), 0.0);
   drive.density_excess.assign(models.patches.size(), 0.0);
   for (std::size_t b = 0; b < models.patches.size(); ++b) {
     if (models.patches[b].speed) drive.speed[b] = scale.velocity_lu(models.patches[b].speed(time));
     if (models.patches[b].pressure) drive.density_excess[b] = scale.density_excess_lu(models.patches[b].pressure(time));
   }
-  const Vec3 force = models.body_force ? models.body_force(time) : Vec3(Vec3::Zero());
+  const Vec3 force = models.body_force ? models.body_force(start) : Vec3(Vec3::Zero());
   for (int d = 0; d < 3; ++d) drive.uniform_force[d] = scale.force_density_lu(force[d]);
 }
 
@@ -127,7 +129,7 @@ void step_air(const Models& models, int steps, double rescale, State& s) {
       constants.tau0_rescaled = tau;
       constants.tau0 = 0.5 + (tau - 0.5) / rescale;
     }
-    set_drive(models, s.time + (n + 0.5) * s.scale.dt, s.scale, s.drive);
+    set_drive(models, s.time + n * s.scale.dt, s.scale, s.drive);
     set_inlet_turbulence(models, s.scale, s.inlet_way, air, s.drive);
     if (n == steps - 1) {
       std::fill(s.touched.begin(), s.touched.end(), 0);

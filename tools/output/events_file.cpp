@@ -65,7 +65,7 @@ EventsFile::EventsFile(const std::filesystem::path& path) {
 
 EventsFile::~EventsFile() {
   try {
-    if (impl_) impl_->write();
+    if (impl_) flush();
   } catch (const OutputError&) {
     // A destructor cannot report; whoever needs to know calls flush() first.
   }
@@ -75,7 +75,7 @@ EventsFile& EventsFile::operator=(EventsFile&&) noexcept = default;
 
 void EventsFile::append(std::span<const EventRecord> records) {
   impl_->collected.insert(impl_->collected.end(), records.begin(), records.end());
-  if (impl_->collected.size() >= chunk) flush();
+  if (impl_->collected.size() >= chunk) impl_->write();
 }
 
 void EventsFile::flush() {

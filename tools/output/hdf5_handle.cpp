@@ -1,5 +1,6 @@
 #include "tools/output/hdf5_handle.hpp"
 
+#include <fstream>
 #include <vector>
 
 namespace puffin::output {
@@ -14,7 +15,10 @@ hid_t Hdf5File::good(hid_t id, const std::string& what) const {
 
 Hdf5File::Hdf5File(const std::filesystem::path& path, const std::string& format) : path_(path) {
   const Hdf5Quiet quiet;
-  file_ = {good(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), "write"), H5Fclose};
+  const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  constexpr std::size_t growth = 1 << 16;
+  H5Pset_fapl_core(access, growth, false);
+  file_ = {good(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), "write"), H5Fclose};
   set_text(file_, "format", format);
   const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose);
   const Hdf5Handle version(H5Acreate2(file_, "format_version", H5T_STD_I32LE, space, H5P_DEFAULT, H5P_DEFAULT),
@@ -77,6 +81,14 @@ void Hdf5File::append(hid_t dataset, hid_t type, const void* elements, hsize_t n
 void Hdf5File::flush() const {
   const Hdf5Quiet quiet;
   good(H5Fflush(file_, H5F_SCOPE_GLOBAL), "write");
+  const ssize_t size = H5Fget_file_image(file_, nullptr, 0);
+  good(size, "write");
+  std::string image(static_cast<std::size_t>(size), '\0');
+  good(H5Fget_file_image(file_, image.data(), image.size()), "write");
+  std::ofstream out(path_, std::ios::binary | std::ios::trunc);
+  out.write(image.data(), size);
+  out.close();
+  good(out ? 0 : -1, "write");
 }
 
 void Hdf5File::set_text(hid_t object, const std::string& name, const std::string& text) const {

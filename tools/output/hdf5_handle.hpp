@@ -52,7 +52,8 @@ class Hdf5Quiet {
 /// A file with the operations that both writers need.
 class Hdf5File {
  public:
-  /// Creates a file for writing and stores `format` with version 1.
+  /// Creates a file for writing and stores `format` with version 1. It grows in memory; flush() writes it: HDF5 itself
+  /// cannot be told of a full disk without crashing when the program ends (1.10.8).
   Hdf5File(const std::filesystem::path& path, const std::string& format);
   /// Opens for reading and checks the format.
   static Hdf5File reading(const std::filesystem::path& path, const std::string& format);
@@ -63,6 +64,7 @@ class Hdf5File {
   /// Appends n elements of `type` at the end.
   void append(hid_t dataset, hid_t type, const void* elements, hsize_t n) const;
   hsize_t length(hid_t dataset) const;
+  /// Writes all that there is so far to the file's place.
   void flush() const;
   void set_text(hid_t object, const std::string& name, const std::string& text) const;
   std::string text(hid_t object, const std::string& name) const;

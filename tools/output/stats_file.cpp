@@ -49,7 +49,7 @@ StatsFile::StatsFile(const std::filesystem::path& path, const std::vector<StatsC
 
 StatsFile::~StatsFile() {
   try {
-    if (impl_) impl_->write();
+    if (impl_) flush();
   } catch (const OutputError&) {
     // A destructor cannot report; whoever needs to know calls flush() first.
   }
@@ -64,7 +64,7 @@ void StatsFile::append(std::span<const double> row) {
                                 std::to_string(d.collected.size()) + " columns");
   }
   for (std::size_t c = 0; c < row.size(); ++c) d.collected[c].push_back(row[c]);
-  if (!row.empty() && d.collected.front().size() >= chunk) flush();
+  if (!row.empty() && d.collected.front().size() >= chunk) d.write();
 }
 
 void StatsFile::flush() {

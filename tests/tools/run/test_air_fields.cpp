@@ -39,7 +39,7 @@ TEST_F(AirScene, AFrozenFieldMayBeThatOfAnotherRun) {
   EXPECT_NEAR(table("frozen/tracks.csv").numbers("u").back(), 0.75, 0.006);
   const std::string late = "field = { run = \"channel\", at = \"70 ms\" }\n";
   EXPECT_EQ(run("late", frozen_channel + late + carrier), 3);
-  EXPECT_NE(text("late.log").find("has no field at 70 ms"), std::string::npos) << text("late.log");
+  EXPECT_NE(text("late.log").find("has no field at 0.07 s"), std::string::npos) << text("late.log");
 }
 
 TEST_F(AirScene, AFrozenFieldMayComeFromATable) {

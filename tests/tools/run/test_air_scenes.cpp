@@ -32,9 +32,10 @@ TEST_F(AirScene, PoiseuilleProfilePressureFlowAndForceAreExactToSecondOrder) {
   // Flux-weighted rho u^2/2 of a parabola: 54/35 of that of the mean.
   EXPECT_NEAR(last(planes, "plane", "first", "total_pressure") - last(planes, "plane", "first", "static_pressure"),
               54.0 / 35.0 * 0.5 * 1.204 * 0.25, 0.01 * 0.232);
-  // Friction on both walls over 3 mm = pressure drop times the section.
+  // Friction on both walls over 3 mm = pressure drop times the section. Diagonal links of the first and the last of the
+  // 48 cells along the wall leave through the openings, which are no wall: up to 1/48 is not counted.
   const auto force = table("channel/forces.csv");
-  EXPECT_NEAR(last(force, "patch", "wall", "fx"), slope * 3e-3 * 6.25e-8, 0.01 * slope * 3e-3 * 6.25e-8);
+  EXPECT_NEAR(last(force, "patch", "wall", "fx"), slope * 3e-3 * 6.25e-8, slope * 3e-3 * 6.25e-8 / 48.0);
 }
 
 TEST_F(AirScene, InAPeriodicDuctTheWallsTakeTheWholeBodyForce) {
