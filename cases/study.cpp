@@ -210,6 +210,7 @@ Study read_study(const std::filesystem::path& file) {
     StudyCase& c = d.cases[n];
     const std::string key = "case[" + std::to_string(n) + "]";
     if (c.base.empty()) c.base = d.base;
+    if (!c.base.empty()) c.base = std::filesystem::weakly_canonical(c.base);  // the same from every folder
     if (c.base.empty() && !findings.broken("base") && !findings.broken(key))
       findings.problem(key, "[[case]] has no base, and neither has the study: give base = \"case.toml\"");
     const toml::node* set = alone ? nullptr : root["case"][n]["set"].node();

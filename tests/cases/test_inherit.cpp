@@ -57,7 +57,7 @@ TEST_F(Inherit, AFullFileOfTheSameValuesIsTheSameCase) {
 TEST_F(Inherit, ListsAndAlternativesReplaceTheBases) {
   const auto path = file("case.toml",
                          "base = \"base/case.toml\"\nname = \"other\"\n[numerics]\ncells = 20000\n"
-                         "[[air.boundary]]\npatch = \"outlet\"\ntype = \"pressure-outlet\"\n");
+                         "[[air.boundary]]\npatch = \"inlet\"\ntype = \"velocity-inlet\"\nvelocity = \"10 m/s\"\n");
   const Case c = read_case(path);
   EXPECT_FALSE(c.numerics.dx);
   EXPECT_EQ(c.numerics.cells, 20000);
@@ -74,8 +74,8 @@ TEST_F(Inherit, NameAndReferenceBelongToOneCase) {
 TEST_F(Inherit, MistakesAreFoundWhereTheyStand) {
   const auto good = file("case.toml", "base = \"base/case.toml\"\nname = \"a\"\n[carriers]\ncuont = 3\n");
   EXPECT_NE(first_problem(good).find("case.toml:4:1: error: unknown key 'cuont'"), std::string::npos);
-  file("base/case.toml", replaced(sample, "parcel = 10", "parcel = -1"));  // line 18 of the base
-  EXPECT_NE(first_problem(file("case.toml", "base = \"base/case.toml\"\nname = \"a\"\n")).find("base/case.toml:18:10"),
+  file("base/case.toml", replaced(sample, "parcel = 10", "parcel = -1"));  // line 19 of the base
+  EXPECT_NE(first_problem(file("case.toml", "base = \"base/case.toml\"\nname = \"a\"\n")).find("base/case.toml:19:10"),
             std::string::npos)
       << first_problem(folder_ / "case.toml");
 }
@@ -88,7 +88,7 @@ TEST_F(Inherit, AssumptionsOfTheBaseStayAssumptions) {
 
 TEST_F(Inherit, FilesOfTheBaseAreLookedForBesideIt) {
   file("base/models.toml", "");
-  file("base/case.toml", sample +
+  file("base/case.toml", replaced(sample, "parcel = 10", "parcel = 10\nfines_each = 2000\nfine_mass_ratio = 2e-5") +
                              "[fines]\nmicromodels = \"models.toml\"\n[[fines.scalar]]\nname = \"s\"\n"
                              "diffusion = 1e-6\n");
   const Case c = read_case(file("case.toml", "base = \"base/case.toml\"\nname = \"a\"\n"));
