@@ -57,11 +57,14 @@ TEST_F(Inherit, AFullFileOfTheSameValuesIsTheSameCase) {
 TEST_F(Inherit, ListsAndAlternativesReplaceTheBases) {
   const auto path = file("case.toml",
                          "base = \"base/case.toml\"\nname = \"other\"\n[numerics]\ncells = 20000\n"
+                         "[[air.boundary]]\npatch = \"outlet\"\ntype = \"pressure-outlet\"\n"
                          "[[air.boundary]]\npatch = \"inlet\"\ntype = \"velocity-inlet\"\nvelocity = \"10 m/s\"\n");
   const Case c = read_case(path);
   EXPECT_FALSE(c.numerics.dx);
   EXPECT_EQ(c.numerics.cells, 20000);
-  EXPECT_EQ(c.air.boundaries.size(), 1u);
+  ASSERT_EQ(c.air.boundaries.size(), 2u);
+  EXPECT_EQ(c.air.boundaries[0].patch, "outlet");
+  EXPECT_TRUE(std::holds_alternative<MeanSpeed>(c.air.boundaries[1].flow));
 }
 
 TEST_F(Inherit, NameAndReferenceBelongToOneCase) {

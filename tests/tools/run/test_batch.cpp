@@ -80,7 +80,8 @@ TEST_F(BatchStudy, AFailedCaseFailsAloneAndIsTriedAgainOnlyWhenAsked) {
   file(
       "study.toml",
       "base = \"case.toml\"\n[[case]]\nname = \"good\"\n[[case]]\nname = \"misspelt\"\nset = { \"numerics.dxx\" = 1 }\n"
-      "[[case]]\nname = \"diverges\"\nset = { \"numerics.time_step\" = 2e-3 }\n[[case]]\nname = \"fast\"\n"
+      "[[case]]\nname = \"diverges\"\nset = { \"numerics.time_step\" = 8e-4, \"stop.time\" = 0.4 }\n[[case]]\nname = "
+      "\"fast\"\n"
       "set = { \"air.boundary[0].velocity\" = \"8 m/s\" }\n");
   EXPECT_EQ(batch("--jobs 2 --json"), 8) << text("log.txt");
   const output::StudyResults results = output::read_study_results(folder_ / "out");
@@ -146,6 +147,20 @@ TEST_F(BatchStudy, TheTableStandsBesideTheGivenValues) {
       EXPECT_EQ(table.numbers("thesis")[n], 100.0);
     }
   EXPECT_TRUE(found);
+}
+
+TEST_F(BatchStudy, GivenValuesOfTheBaseAreNotThoseOfAnotherDrug) {
+  file("study.toml",
+       "base = \"case.toml\"\n[[case]]\nname = \"finer\"\nset = { \"numerics.dx\" = \"0.4 mm\" }\n[[case]]\n"
+       "name = \"heavier\"\nset = { \"air.density\" = 1.3 }\n[[case]]\nname = \"own\"\n"
+       "set = { \"air.density\" = 1.3, \"reference.thesis.static_drop\" = 7 }\n");
+  ASSERT_EQ(batch(""), 0) << text("log.txt");
+  const output::StudyResults r = output::read_study_results(folder_ / "out");
+  ASSERT_TRUE(r.cases[0].given("thesis", "static_drop"));
+  EXPECT_EQ(r.cases[0].given("thesis", "static_drop")->given, 100.0);
+  EXPECT_FALSE(r.cases[1].given("thesis", "static_drop"));
+  ASSERT_TRUE(r.cases[2].given("thesis", "static_drop"));
+  EXPECT_EQ(r.cases[2].given("thesis", "static_drop")->given, 7.0);
 }
 
 // Air, carriers and contacts do not know of the fines, so all but what is in the air must be the same to the last bit.

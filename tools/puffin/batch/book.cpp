@@ -4,6 +4,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -73,6 +74,28 @@ std::string page_of(const Json& status) {
   return html;
 }
 
+/// The base's given values stand for a case that is the same device with the same drug: another grid or output leaves
+/// them, any other change keeps only what it gives itself.
+Json reference_of(const cases::StudyCase& c) {
+  const bool same = std::all_of(c.sets.begin(), c.sets.end(), [](const cases::Override& o) {
+    return o.key.starts_with("numerics.") || o.key.starts_with("output.") || o.key.starts_with("reference.");
+  });
+  Json reference = Json::object();
+  const auto given_here = [&](const std::string& name) {
+    return std::any_of(c.sets.begin(), c.sets.end(),
+                       [&](const cases::Override& o) { return ("reference." + name).starts_with(o.key); });
+  };
+  try {
+    for (const auto& [name, value] : cases::read_case(c.base, c.sets).reference) {
+      if (!same && !given_here(name)) continue;
+      if (const auto* number = std::get_if<double>(&value)) reference[name] = *number;
+      if (const auto* list = std::get_if<std::vector<double>>(&value)) reference[name] = *list;
+    }
+  } catch (const std::exception&) {  // an invalid case has no reference; its job says why
+  }
+  return reference;
+}
+
 }  // namespace
 
 const char* name_of(JobState state) { return state_names[static_cast<int>(state)]; }
@@ -138,14 +161,7 @@ void Book::write() const {
       for (const Member& m : plan_.jobs[k].members)
         if (m.which == n)
           runs.push_back({{"replicate", plan_.jobs[k].replicate}, {"job", plan_.jobs[k].id}, {"scalar", m.scalar}});
-    Json reference = Json::object();
-    try {
-      for (const auto& [name, value] : cases::read_case(c.base, c.sets).reference) {
-        if (const auto* number = std::get_if<double>(&value)) reference[name] = *number;
-        if (const auto* list = std::get_if<std::vector<double>>(&value)) reference[name] = *list;
-      }
-    } catch (const std::exception&) {  // an invalid case has no reference; its job says why
-    }
+    const Json reference = reference_of(c);
     cases.push_back({{"name", c.name},
                      {"base", c.base.string()},
                      {"set", sets},
