@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "cases/format/consistency.hpp"
+#include "cases/format/inherit.hpp"
 #include "cases/format/schema.hpp"
 #include "cases/format/toml_edit.hpp"
 #include "cases/format/toml_fields.hpp"
@@ -51,6 +52,8 @@ Case parse_case(std::string_view toml_text, const std::filesystem::path& file, c
   const std::string name = file.string();
   toml::table root = format::parse_toml(toml_text, name);
   format::Findings findings(name, toml_text);
+  format::inherit(root, file, findings);
+  if (!findings.problems().empty()) throw CaseError(findings.sorted_problems());
   if (!preset.empty()) format::apply_preset(root, preset_of(preset));
   for (const Override& o : overrides) try {
       format::apply_override(root, o);

@@ -49,10 +49,14 @@ bool after(std::string_view comment, std::string_view word, std::string& note) {
 
 }  // namespace
 
-Findings::Findings(std::string file, std::string_view text) : file_(std::move(file)) {
+Findings::Findings(std::string file, std::string_view text) : file_(std::move(file)) { add_text(file_, text); }
+
+void Findings::add_text(const std::string& file, std::string_view text) {
+  std::vector<std::string>& lines = lines_[file];
+  lines.clear();
   while (!text.empty()) {
     const std::size_t end = std::min(text.find('\n'), text.size());
-    lines_.emplace_back(text.substr(0, end));
+    lines.emplace_back(text.substr(0, end));
     text.remove_prefix(std::min(end + 1, text.size()));
   }
 }
@@ -77,10 +81,12 @@ bool Findings::broken(const std::string& key) const {
   });
 }
 
-ValueSource Findings::comment(int first, int line, int column) const {
+ValueSource Findings::comment(const std::string& file, int first, int line, int column) const {
   ValueSource s;
-  if (line < 1 || line > static_cast<int>(lines_.size())) return s;
-  const std::string_view text = comment_of(from_column(lines_[line - 1], column));
+  const auto found = lines_.find(file);
+  if (found == lines_.end() || line < 1 || line > static_cast<int>(found->second.size())) return s;
+  const std::vector<std::string>& lines = found->second;
+  const std::string_view text = comment_of(from_column(lines[line - 1], column));
   if (after(text, "assumed", s.note))
     s.origin = Origin::assumed;
   else if (after(text, "default", s.note))
@@ -88,7 +94,7 @@ ValueSource Findings::comment(int first, int line, int column) const {
   else if (after(text, "derived", s.note))
     s.origin = Origin::derived;
   if (s.origin != Origin::given || first < 2) return s;
-  const std::string_view above = trim(lines_[first - 2]);
+  const std::string_view above = trim(lines[first - 2]);
   if (above.starts_with('#') && after(trim(above.substr(1)), "assumed", s.note)) s.origin = Origin::assumed;
   return s;
 }

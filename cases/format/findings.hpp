@@ -22,6 +22,8 @@ class Findings {
   /// `file` is what messages call the text; the lines are searched for comments ("# assumed: why").
   Findings(std::string file, std::string_view text);
 
+  /// Another file that the case is made of: its comments count too.
+  void add_text(const std::string& file, std::string_view text);
   const std::string& file() const { return file_; }
   /// Remembers where a key (dotted, with [i] for lists) is written.
   void place(const std::string& key, Place where) { places_[key] = std::move(where); }
@@ -36,9 +38,9 @@ class Findings {
   bool broken(const std::string& key) const;
 
   void source(const std::string& key, ValueSource s) { sources_[key] = std::move(s); }
-  /// What the comment behind a value ending at line and column (1-based), or an "# assumed:" line above line `first`,
-  /// says about its origin; given without one.
-  ValueSource comment(int first, int line, int column) const;
+  /// What the comment behind a value ending at line and column (1-based) of a file, or an "# assumed:" line above line
+  /// `first`, says about its origin; given without one.
+  ValueSource comment(const std::string& file, int first, int line, int column) const;
 
   const std::vector<Problem>& problems() const { return problems_; }
   /// The problems in the order of the file.
@@ -47,7 +49,7 @@ class Findings {
 
  private:
   std::string file_;
-  std::vector<std::string> lines_;
+  std::map<std::string, std::vector<std::string>> lines_;  // by file
   std::map<std::string, Place> places_;
   std::map<std::string, ValueSource> sources_;
   std::vector<Problem> problems_;

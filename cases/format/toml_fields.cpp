@@ -83,8 +83,8 @@ void TomlFields::given(std::string_view key, const toml::node& node) {
   ValueSource source;
   if (s.path && s.path->starts_with("--preset"))
     source = {Origin::derived, s.path->substr(2)};
-  else if (!s.path || *s.path == findings_.file())
-    source = findings_.comment(s.begin.line, s.end.line, s.end.column);
+  else
+    source = findings_.comment(s.path ? *s.path : findings_.file(), s.begin.line, s.end.line, s.end.column);
   findings_.source(full(key), source);
 }
 
@@ -221,7 +221,10 @@ void TomlFields::file(std::string_view key, std::string& path, std::span<const s
   read(key, path, Fallback<std::string>{}, [&](const toml::node& node) -> std::optional<std::string> {
     const auto* s = node.as_string();
     if (!s || s->get().empty()) return wrong(key, node, "must be the name of a file, in quotes"), std::nullopt;
-    std::vector<std::string> folders{base_.empty() ? "." : base_.string()};
+    const auto& source = node.source().path;  // a value of a base case: relative to the base's own folder
+    const bool from_file = source && !source->starts_with("--");
+    const std::filesystem::path here = from_file ? std::filesystem::path(*source).parent_path() : base_;
+    std::vector<std::string> folders{here.empty() ? "." : here.string()};
     folders.insert(folders.end(), also.begin(), also.end());
     for (const std::string& folder : folders) {
       const std::filesystem::path candidate = (std::filesystem::path(folder) / s->get()).lexically_normal();

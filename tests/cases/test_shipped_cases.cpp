@@ -1,13 +1,13 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cctype>
 #include <filesystem>
 
-#include <algorithm>
-
+#include "cases/check_boundaries.hpp"
 #include "cases/derived.hpp"
 #include "cases/micromodel_file.hpp"
 #include "cases/read_case.hpp"
-#include "cases/check_boundaries.hpp"
 #include "cases/surface.hpp"
 #include "cases/write_case.hpp"
 
@@ -52,6 +52,99 @@ TEST(ShippedCases, LBaseLoadsTheDoseOfTheThesis) {
   EXPECT_FALSE(c.carriers->rotation);
   EXPECT_EQ(c.stop.time, 0.211);
   EXPECT_FALSE(assumptions(c).empty());
+}
+
+/// One row of the thesis's tables 3.2 and 3.3 with the stop times of sections 3.2.4 and 4.1.2.
+struct Row {
+  const char* name;
+  const char* generator;
+  std::int64_t carriers;
+  int parcel;
+  FillShape packing;
+  double surface_energy;  // [J/m^2]
+  double hamaker;         // [J], two digits
+  double diffusion;       // [kg/(m s)]
+  double end;             // [s]
+};
+constexpr auto cylinder = FillShape::cylinder, cube = FillShape::cube;
+constexpr Row thesis_cases[] = {
+    {"L-Base", "l-bend", 25000, 10, cylinder, 3.6e-3, 4.3e-20, 1e-6, 0.211},
+    {"L-Particles", "l-bend", 1000, 1, cube, 3.6e-3, 4.3e-20, 1e-6, 0.350},
+    {"L-Parcels", "l-bend", 1000, 10, cube, 3.6e-3, 4.3e-20, 1e-6, 0.350},
+    {"L-Particles2", "l-bend", 10000, 1, cube, 3.6e-3, 4.3e-20, 1e-6, 0.350},
+    {"L-Parcels2", "l-bend", 10000, 10, cube, 3.6e-3, 4.3e-20, 1e-6, 0.350},
+    {"L-Hamaker", "l-bend", 25000, 10, cylinder, 1.8e-2, 2.2e-19, 1e-6, 0.350},
+    {"L-Diffusion", "l-bend", 25000, 10, cylinder, 3.6e-3, 4.3e-20, 1e-3, 0.350},
+    {"Omega-Base", "omega-bend", 25000, 10, cylinder, 3.6e-3, 4.3e-20, 1e-6, 0.400},
+    {"Omega-Particles", "omega-bend", 1000, 1, cube, 3.6e-3, 4.3e-20, 1e-6, 0.400},
+    {"Omega-Parcels", "omega-bend", 1000, 10, cube, 3.6e-3, 4.3e-20, 1e-6, 0.400},
+    {"Omega-Hamaker", "omega-bend", 25000, 10, cylinder, 1.8e-2, 2.2e-19, 1e-6, 0.400},
+    {"Omega-Diffusion", "omega-bend", 25000, 10, cylinder, 3.6e-3, 4.3e-20, 1e-3, 0.400},
+};
+
+std::filesystem::path shipped(std::string name) {
+  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
+  return std::filesystem::path(PUFFIN_SOURCE_DIR) / "cases" / name / "case.toml";
+}
+
+TEST(ShippedCases, TheTwelveOfTheThesisAreItsTables) {
+  for (const Row& row : thesis_cases) {
+    SCOPED_TRACE(row.name);
+    const Case c = read_case(shipped(row.name));
+    EXPECT_EQ(c.name, row.name);
+    EXPECT_EQ(std::get<Generated>(c.geometry.source).kind, row.generator);
+    ASSERT_TRUE(c.carriers && c.fines && c.carriers->fill);
+    EXPECT_EQ(c.carriers->count, row.carriers);
+    EXPECT_EQ(c.carriers->parcel, row.parcel);
+    EXPECT_EQ(c.carriers->fill->shape, row.packing);
+    const bool twin_of_singles = row.packing == cube && row.parcel > 1;  // their outer centres coincide
+    EXPECT_EQ(c.carriers->fill->extent_of.has_value(), twin_of_singles);
+    if (twin_of_singles) {
+      EXPECT_EQ(*c.carriers->fill->extent_of, (std::array<std::int64_t, 2>{row.carriers, 1}));
+    }
+    EXPECT_DOUBLE_EQ(c.carriers->adhesion.surface_energy, row.surface_energy);
+    EXPECT_DOUBLE_EQ(c.carriers->wall_adhesion.surface_energy, row.surface_energy);
+    EXPECT_NEAR(c.carriers->adhesion.hamaker, row.hamaker, 0.05 * row.hamaker / 2.0);  // stated with two digits
+    EXPECT_DOUBLE_EQ(read_micromodels(c.fines->micromodels).surface_energy, row.surface_energy);
+    ASSERT_EQ(c.fines->scalars.size(), 1u);
+    EXPECT_EQ(c.fines->scalars[0].name, row.name);
+    EXPECT_DOUBLE_EQ(c.fines->scalars[0].diffusion, row.diffusion);
+    EXPECT_DOUBLE_EQ(c.stop.time, row.end);
+    EXPECT_TRUE(c.reference.contains("thesis.mean_wall_energy"));
+  }
+}
+
+// What differs from the base case is what the table says, and nothing else.
+TEST(ShippedCases, TheTwelveDifferFromTheirBaseOnlyWhereTheyMust) {
+  for (const Row& row : thesis_cases) {
+    SCOPED_TRACE(row.name);
+    Case c = read_case(shipped(row.name));
+    const Case base = read_case(shipped(row.generator == std::string("l-bend") ? "L-Base" : "Omega-Base"));
+    c.name = base.name;
+    c.carriers->count = base.carriers->count;
+    c.carriers->parcel = base.carriers->parcel;
+    c.carriers->fill->shape = base.carriers->fill->shape;
+    c.carriers->fill->extent_of.reset();
+    for (Adhesion* a : {&c.carriers->adhesion, &c.carriers->wall_adhesion})
+      a->surface_energy = base.carriers->adhesion.surface_energy, a->hamaker = base.carriers->adhesion.hamaker;
+    c.fines->micromodels = base.fines->micromodels;
+    c.fines->scalars[0].name = base.fines->scalars[0].name;
+    c.fines->scalars[0].diffusion = base.fines->scalars[0].diffusion;
+    c.stop.time = base.stop.time;
+    c.reference = base.reference;
+    c.provenance = base.provenance;
+    EXPECT_TRUE(c == base);
+  }
+}
+
+// Table 4.7 and 4.10 and section 4.1: sums of the fines' fractions; tolerance: two digits of each of four fractions.
+TEST(ShippedCases, TheReferenceOfBothBasesIsTheirOwn) {
+  for (const auto& [name, emitted] : {std::pair{"L-Base", 0.67}, std::pair{"Omega-Base", 0.78}}) {
+    const Case c = read_case(shipped(name));
+    const auto value = [&](const char* key) { return std::get<double>(c.reference.at(std::string("thesis.") + key)); };
+    EXPECT_DOUBLE_EQ(value("FFE"), emitted);
+    EXPECT_NEAR(value("FFE") + value("FFW") + value("FFCR") + value("FFCE"), 1.0, 4 * 0.005);
+  }
 }
 
 TEST(ShippedMicroModels, AreRead) {

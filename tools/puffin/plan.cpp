@@ -1,10 +1,13 @@
-// puffin plan: what a case will run, what it leaves out, and why.
+// puffin plan: what a case or a study will run, what it shares or leaves out, and why.
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include "cases/choices.hpp"
+#include "cases/format/toml_file.hpp"
+#include "cases/spelling.hpp"
 #include "tools/puffin/arguments.hpp"
+#include "tools/puffin/batch/jobs.hpp"
 #include "tools/puffin/commands.hpp"
 #include "tools/puffin/console.hpp"
 #include "tools/puffin/exit_codes.hpp"
@@ -61,7 +64,11 @@ std::vector<Part> parts_of(const cases::Case& c) {
   return parts;
 }
 
+int plan_study(const CaseArguments& a);
+bool is_study(const std::filesystem::path& file);
+
 int plan(const CaseArguments& a) {
+  if (is_study(a.file)) return plan_study(a);
   const cases::Case c = a.read();
   const std::vector<Part> parts = parts_of(c);
   if (a.json) {
@@ -75,11 +82,53 @@ int plan(const CaseArguments& a) {
   return ok;
 }
 
+/// A study file has cases, sweeps or replicates, and no device of its own.
+bool is_study(const std::filesystem::path& file) {
+  const toml::table root = cases::format::parse_toml(cases::format::read_text(file), file.string());
+  if (root.contains("geometry") || root.contains("name")) return false;
+  return root.contains("case") || root.contains("sweep") || root.contains("replicates") || root.contains("share");
+}
+
+int plan_study(const CaseArguments& a) {
+  if (!a.sets.empty()) throw UsageError("--set: a study says itself what it sets");
+  const cases::Study study = cases::read_study(a.file);
+  const Jobs plan = plan_jobs(study, a.preset);
+  json j{{"name", study.file.stem().string()},
+         {"runs", json::array()},
+         {"skipped", json::array()},
+         {"shared", json::array()}};
+  bool bad = false;
+  for (const Job& job : plan.jobs) {
+    std::vector<std::string> names;
+    for (const Member& m : job.members) names.push_back(study.cases[m.which].name);
+    json sets = json::object();
+    for (const cases::Override& o : job.sets) sets[o.key] = o.value;
+    j["runs"].push_back({{"name", job.id},
+                         {"cases", names},
+                         {"base", job.base.string()},
+                         {"set", sets},
+                         {"problem", job.problem},
+                         {"why", ""}});
+    if (!a.json) print("  runs     " + job.id + (names.size() > 1 ? ": " + cases::join(names) : ""));
+    if (!job.problem.empty() && !a.json) print("  INVALID  " + job.problem);
+    bad = bad || !job.problem.empty();
+  }
+  for (const Sharing& s : plan.sharings) {
+    j[s.done ? "shared" : "skipped"].push_back({{"name", s.name}, {"why", s.what}, {"error", s.error}});
+    if (!a.json)
+      print((s.done ? "  shared   " : "  apart    ") + s.name + ": " + s.what +
+            (s.error.empty() ? "" : "; " + s.error));
+  }
+  if (a.json) print(j.dump(2, ' ', false, json::error_handler_t::replace));
+  return bad ? case_invalid : ok;
+}
+
 }  // namespace
 
 namespace commands {
 Command plan() {
-  return {"plan", "what a case will run, what it leaves out, and why", [](CLI::App& app) -> Action {
+  return {"plan", "what a case or a study will run, what it shares or leaves out, and why",
+          [](CLI::App& app) -> Action {
             auto a = std::make_shared<CaseArguments>();
             a->add_to(app);
             return [a] { return puffin::tools::plan(*a); };

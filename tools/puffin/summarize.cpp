@@ -179,8 +179,11 @@ std::vector<std::string> assumptions(const cases::Simulation& s) {
 
 void add_reference(const cases::Simulation& s, output::Summary& summary) {
   std::vector<output::ReferenceValue> given;
-  for (const auto& [name, value] : s.description.reference)
+  for (const auto& [name, value] : s.description.reference) {
     if (const auto* number = std::get_if<double>(&value)) given.push_back({name, *number, {}, {}});
+    const auto* list = std::get_if<std::vector<double>>(&value);  // value, lowest, highest
+    if (list && list->size() == 3) given.push_back({name, (*list)[0], (*list)[1], (*list)[2]});
+  }
   output::compare_with_reference(summary, given);
 }
 

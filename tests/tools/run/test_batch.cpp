@@ -1,0 +1,197 @@
+// Studies as a user sees them: what fails fails alone, what is finished is never redone, shared runs give the same.
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "tests/tools/run/small_dose.hpp"
+#include "tools/output/csv_file.hpp"
+#include "tools/output/study_results.hpp"
+#include "tools/output/summary.hpp"
+
+namespace {
+
+using namespace puffin;
+namespace fs = std::filesystem;
+
+/// 320 cells and some 100 steps: a run of milliseconds.
+constexpr const char* duct = R"toml(
+schema = 1
+name = "duct"
+[geometry]
+generator = "duct"
+[geometry.duct]
+length = "10 mm"
+width = "2 mm"
+height = "2 mm"
+[air]
+density = 1.2
+viscosity = 1.8e-5
+[[air.boundary]]
+patch = "inlet"
+type = "velocity-inlet"
+velocity = "5 m/s"
+[[air.boundary]]
+patch = "outlet"
+type = "pressure-outlet"
+[numerics]
+dx = "0.5 mm"
+[stop]
+time = "1 ms"
+[output]
+statistics = "0.1 ms"
+[reference.thesis]
+static_drop = 100
+)toml";
+
+class BatchStudy : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() /
+              ("puffin-batch-" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+    file("case.toml", duct);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+  void file(const std::string& name, const std::string& text) const { std::ofstream(folder_ / name) << text; }
+  std::string text(const std::string& name) const {
+    std::ifstream stream(folder_ / name);
+    std::stringstream all;
+    all << stream.rdbuf();
+    return all.str();
+  }
+  int shell(const std::string& command) const {
+    return WEXITSTATUS(std::system(("cd " + folder_.string() + " && " + command).c_str()));
+  }
+  int batch(const std::string& arguments) const {
+    return shell(std::string(PUFFIN_BINARY_DIR) + "/puffin batch study.toml --out out " + arguments +
+                 " > json.txt 2>> log.txt");
+  }
+  fs::path folder_;
+};
+
+TEST_F(BatchStudy, AFailedCaseFailsAloneAndIsTriedAgainOnlyWhenAsked) {
+  file(
+      "study.toml",
+      "base = \"case.toml\"\n[[case]]\nname = \"good\"\n[[case]]\nname = \"misspelt\"\nset = { \"numerics.dxx\" = 1 }\n"
+      "[[case]]\nname = \"diverges\"\nset = { \"numerics.time_step\" = 8e-4, \"stop.time\" = 0.4 }\n[[case]]\nname = "
+      "\"fast\"\n"
+      "set = { \"air.boundary[0].velocity\" = \"8 m/s\" }\n");
+  EXPECT_EQ(batch("--jobs 2 --json"), 8) << text("log.txt");
+  const output::StudyResults results = output::read_study_results(folder_ / "out");
+  ASSERT_EQ(results.cases.size(), 4U);
+  EXPECT_EQ(results.cases[0].runs[0].state, "done");
+  EXPECT_EQ(results.cases[1].runs[0].exit_code, 3);
+  EXPECT_EQ(results.cases[2].runs[0].state, "failed");
+  EXPECT_EQ(results.cases[2].runs[0].exit_code, 5) << results.cases[2].runs[0].message;
+  EXPECT_EQ(results.cases[3].runs[0].state, "done");
+  EXPECT_NE(text("log.txt").find("study.toml:6:"), std::string::npos) << text("log.txt");
+  EXPECT_NE(text("json.txt").find("\"exit_code\": 8"), std::string::npos);
+  EXPECT_NE(text("out/diverges/seed-1/run.log").find("diverged"), std::string::npos);
+  for (const char* name : {"report.html", "results.csv", "runs.csv", "results.json", "status.json", "index.html"})
+    EXPECT_TRUE(fs::exists(folder_ / "out" / name)) << name;
+
+  EXPECT_EQ(batch(""), 8);
+  EXPECT_EQ(text("out/study.json").find("\"attempts\": 2"), std::string::npos) << "a failed or finished run was redone";
+  EXPECT_EQ(batch("--retry-failed --only diverges"), 8);
+  EXPECT_NE(text("out/study.json").find("\"attempts\": 2"), std::string::npos);
+  EXPECT_TRUE(fs::exists(folder_ / "out/diverges/seed-1.failed-1/run.log")) << "the first log is kept";
+  EXPECT_EQ(batch("--only '[gf]*'"), 0) << "the chosen cases are all finished";
+}
+
+TEST_F(BatchStudy, AKilledBatchGoesOnWithoutRedoingWhatIsFinished) {
+  file("study.toml",
+       "base = \"case.toml\"\n[sweep]\nmethod = \"list\"\n[sweep.range]\n"
+       "\"stop.time\" = [\"1.2 ms\", \"1.1 ms\", \"1 ms\", \"40 s\"]\n");
+  // The long run is the dearest and starts first; the short ones end beside it. Then the batch is killed outright.
+  EXPECT_NE(shell("timeout -s KILL 6 " + std::string(PUFFIN_BINARY_DIR) +
+                  "/puffin batch study.toml --out out --jobs 2 > /dev/null 2> log.txt"),
+            0);
+  const auto before = text("out/duct-1/seed-1/summary.json"), status = text("out/status.json");
+  ASSERT_NE(before.find("finished"), std::string::npos) << text("log.txt");
+  EXPECT_NE(status.find("\"state\": \"running\""), std::string::npos);
+  EXPECT_NE(text("out/index.html").find("http-equiv=\"refresh\""), std::string::npos);
+  EXPECT_EQ(batch("--only 'duct-[123]'"), 0);
+  EXPECT_EQ(text("out/duct-1/seed-1/summary.json"), before);
+  EXPECT_EQ(text("out/study.json").find("\"attempts\": 2"), std::string::npos);
+}
+
+TEST_F(BatchStudy, AFinishedRunOfAnotherCaseIsNeverTakenForThisOne) {
+  file("study.toml", "base = \"case.toml\"\n[[case]]\nname = \"a\"\n");
+  ASSERT_EQ(batch(""), 0) << text("log.txt");
+  file("study.toml", "base = \"case.toml\"\n[[case]]\nname = \"a\"\nset = { \"air.density\" = 1.3 }\n");
+  EXPECT_EQ(batch(""), 7);
+  EXPECT_NE(text("log.txt").find("finished run of another case"), std::string::npos);
+}
+
+TEST_F(BatchStudy, TheTableStandsBesideTheGivenValues) {
+  file("study.toml", "base = \"case.toml\"\nreplicates = 2\n[[case]]\nname = \"a\"\n");
+  ASSERT_EQ(batch(""), 0) << text("log.txt");
+  const auto table = output::read_csv(folder_ / "out/results.csv");
+  const auto names = static_cast<std::size_t>(table.find("quantity"));
+  bool found = false;
+  for (std::size_t n = 0; n < table.rows.size(); ++n)
+    if (table.rows[n][names] == "static_drop") {
+      found = true;
+      const double one = *output::read_summary(folder_ / "out/a/seed-1/summary.json").pressure->static_drop.mean;
+      // Nothing in this case is random: both seeds give the same, and the interval has no width.
+      EXPECT_DOUBLE_EQ(table.numbers("mean")[n], one);
+      EXPECT_DOUBLE_EQ(table.numbers("ci_high")[n], one);
+      EXPECT_EQ(table.numbers("replicates")[n], 2.0);
+      EXPECT_EQ(table.numbers("thesis")[n], 100.0);
+    }
+  EXPECT_TRUE(found);
+}
+
+TEST_F(BatchStudy, GivenValuesOfTheBaseAreNotThoseOfAnotherDrug) {
+  file("study.toml",
+       "base = \"case.toml\"\n[[case]]\nname = \"finer\"\nset = { \"numerics.dx\" = \"0.4 mm\" }\n[[case]]\n"
+       "name = \"heavier\"\nset = { \"air.density\" = 1.3 }\n[[case]]\nname = \"own\"\n"
+       "set = { \"air.density\" = 1.3, \"reference.thesis.static_drop\" = 7 }\n");
+  ASSERT_EQ(batch(""), 0) << text("log.txt");
+  const output::StudyResults r = output::read_study_results(folder_ / "out");
+  ASSERT_TRUE(r.cases[0].given("thesis", "static_drop"));
+  EXPECT_EQ(r.cases[0].given("thesis", "static_drop")->given, 100.0);
+  EXPECT_FALSE(r.cases[1].given("thesis", "static_drop"));
+  ASSERT_TRUE(r.cases[2].given("thesis", "static_drop"));
+  EXPECT_EQ(r.cases[2].given("thesis", "static_drop")->given, 7.0);
+}
+
+// Air, carriers and contacts do not know of the fines, so all but what is in the air must be the same to the last bit.
+// In the air the shared run steps as the most diffusive scalar needs: with equal diffusion the same bits too.
+TEST_F(BatchStudy, ASharedRunGivesWhatEachCaseGivesAlone) {
+  file("case.toml", small_dose);
+  const std::string cases =
+      "[[case]]\nname = \"a\"\n[[case]]\nname = \"b\"\nset = { \"fines.scalar[0].scheme\" = \"minmod\" }\n";
+  file("study.toml", "base = \"case.toml\"\nshare = [\"scalars\"]\n" + cases);
+  ASSERT_EQ(batch(""), 0) << text("log.txt");
+  ASSERT_TRUE(fs::exists(folder_ / "out/shared/a_b/seed-1/summary.json"));
+  file("study.toml", "base = \"case.toml\"\n" + cases);
+  ASSERT_EQ(shell(std::string(PUFFIN_BINARY_DIR) + "/puffin batch study.toml --out alone > /dev/null 2> log.txt"), 0);
+  const auto shared = output::read_study_results(folder_ / "out"),
+             alone = output::read_study_results(folder_ / "alone");
+  for (std::size_t n = 0; n < 2; ++n)
+    for (const char* quantity : {"FFE", "FFW", "FFCR", "FFCE", "in_air", "collisions.wall", "mean_wall_energy", "steps",
+                                 "by_mechanism.wall", "static_drop", "RDF"}) {
+      SCOPED_TRACE(quantity);
+      ASSERT_TRUE(shared.cases[n].find(quantity) && alone.cases[n].find(quantity));
+      EXPECT_EQ(shared.cases[n].find(quantity)->mean, alone.cases[n].find(quantity)->mean);
+    }
+}
+
+// mean 2, standard deviation 1, t(0.975, 2) = 4.303: half width 4.303/sqrt(3) = 2.484 (four digits in the table).
+TEST(StudyTable, TheIntervalOfThreeValuesIsStudents) {
+  const output::Estimate e = output::estimate({1.0, 2.0, 3.0});
+  EXPECT_DOUBLE_EQ(e.mean, 2.0);
+  EXPECT_NEAR(*e.ci_high - e.mean, 4.302653 / std::sqrt(3.0), 5e-4);
+  EXPECT_NEAR(e.mean - *e.ci_low, 4.302653 / std::sqrt(3.0), 5e-4);
+  EXPECT_FALSE(output::estimate({1.0}).ci_low);
+}
+
+}  // namespace

@@ -1,0 +1,182 @@
+// The report of a study: its cases beside each other, beside the given values and the experiments.
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/output/csv_file.hpp"
+#include "tools/output/report.hpp"
+#include "tools/output/report/chart.hpp"
+#include "tools/output/report/html.hpp"
+#include "tools/output/study_results.hpp"
+
+namespace puffin::output {
+namespace {
+
+namespace fs = std::filesystem;
+using Rows = std::vector<std::vector<std::string>>;
+
+std::string heading(const std::string& text) { return "<h2>" + escaped(text) + "</h2>\n"; }
+std::string paragraph(const std::string& text) { return "<p>" + escaped(text) + "</p>\n"; }
+
+std::string with_interval(const Estimate* e, double factor = 1.0) {
+  if (!e) return "<span class=soft>none</span>";
+  std::string text = significant(e->mean * factor);
+  if (e->ci_low) text += " &plusmn; " + significant((*e->ci_high - e->mean) * factor, 2);
+  return text;
+}
+
+std::string with_given(const StudyCaseResult& c, const std::string& quantity, double factor = 1.0) {
+  const Estimate* e = c.find(quantity);
+  const ReferenceValue* thesis = c.given("thesis", quantity);
+  return with_interval(e, factor) +
+         (thesis ? " <span class=soft>(" + significant(thesis->given * factor) + ")</span>" : "");
+}
+
+bool any_run(const StudyCaseResult& c) { return !c.numbers.empty(); }
+
+std::string overview(const StudyResults& results) {
+  Rows rows;
+  for (const StudyCaseResult& c : results.cases) {
+    int done = 0;
+    std::string problems, sets;
+    for (const StudyRun& run : c.runs) {
+      done += run.state == "done";
+      if (run.state == "failed") problems += escaped(run.folder + ": " + run.message) + "<br>";
+    }
+    for (const auto& [key, value] : c.sets) sets += "<code>" + escaped(key + " = " + value) + "</code><br>";
+    rows.push_back({escaped(c.name), sets, std::to_string(done) + " of " + std::to_string(c.runs.size()),
+                    with_interval(c.find("simulated_time"), 1e3), with_interval(c.find("wall_clock")), problems});
+  }
+  return heading("The cases") +
+         table({"case", "changes", "runs done", "simulated [ms]", "wall-clock [s]", "problems"}, rows);
+}
+
+std::string outcome(const StudyResults& results, const std::string& quantity, const std::string& label) {
+  BarChart chart{label, {}, 3};
+  for (const StudyCaseResult& c : results.cases) {
+    BarGroup group{c.name, {}};
+    if (const Estimate* e = c.find(quantity)) {
+      Bar bar{"this study", e->mean, {}, {}};
+      if (e->ci_low) bar.low = std::max(0.0, *e->ci_low), bar.high = e->ci_high;
+      group.bars.push_back(bar);
+    }
+    for (const char* source : {"thesis", "experiment"})
+      if (const ReferenceValue* given = c.given(source, quantity))
+        group.bars.push_back({source, given->given, given->low, given->high});
+    if (any_run(c) && !group.bars.empty()) chart.groups.push_back(group);
+  }
+  if (chart.groups.empty()) return "";
+  return figure_svg(bar_chart(chart), quantity +
+                                          ". Whiskers: 95 % interval of the mean over the replicates (this study); "
+                                          "smallest and largest (experiment).");
+}
+
+std::string outcomes(const StudyResults& results) {
+  std::string out = heading("Where the fines ended");
+  const std::string bars = outcome(results, "FFE", "FFE: fines that left the device free, of all") +
+                           outcome(results, "FFW", "FFW: fines on the walls, of all") +
+                           outcome(results, "FFCR", "FFCR: fines on retained carriers, of all") +
+                           outcome(results, "FFCE", "FFCE: fines on emitted carriers, of all") +
+                           outcome(results, "RDF", "RDF: retained dose, of all");
+  if (bars.empty()) return out + paragraph("No run with fines is done yet.");
+  Rows rows;
+  for (const StudyCaseResult& c : results.cases)
+    if (any_run(c))
+      rows.push_back({escaped(c.name), with_given(c, "FFE"), with_given(c, "FFW"), with_given(c, "FFCR"),
+                      with_given(c, "FFCE"), with_interval(c.find("in_air")), with_given(c, "RDF"),
+                      with_given(c, "retained_fraction"), with_given(c, "by_mechanism.wall"),
+                      with_given(c, "by_mechanism.particle")});
+  return out + bars +
+         table({"case", "FFE", "FFW", "FFCR", "FFCE", "in air", "RDF", "carriers retained", "by walls", "by carriers"},
+               rows) +
+         paragraph(
+             "Mean with the half width of its 95 % interval where there are replicates; in brackets: the thesis.");
+}
+
+/// Curves of one column of the first finished run of every case.
+std::string curves(const StudyResults& results, const fs::path& study, const std::string& column, bool over_count,
+                   const std::string& label, const std::string& caption) {
+  LineChart chart;
+  chart.x_label = "time [ms]", chart.y_label = label;
+  for (const StudyCaseResult& c : results.cases) {
+    const auto run =
+        std::find_if(c.runs.begin(), c.runs.end(), [](const StudyRun& r) { return r.summary.has_value(); });
+    if (run == c.runs.end() || !run->summary->carriers || !fs::exists(study / run->folder / "history.csv")) continue;
+    const CsvTable history = read_csv(study / run->folder / "history.csv");
+    std::vector<double> time = history.numbers("time"), value = history.numbers(column);
+    if (time.empty() || value.size() != time.size()) continue;
+    for (double& t : time) t *= 1e3;
+    const auto count = static_cast<double>(std::max<std::int64_t>(1, run->summary->carriers->count));
+    for (double& v : value) v /= over_count ? count : 1.0;
+    chart.curves.push_back({c.name, time, value});
+    if (chart.curves.size() == 8) {  // more in one frame cannot be told apart
+      break;
+    }
+  }
+  if (chart.curves.empty()) return "";
+  return figure_svg(line_chart(chart), caption);
+}
+
+/// Eight cases a frame, in the order of the study.
+std::string emission(const StudyResults& results, const fs::path& study) {
+  std::string out = heading("Emission over time"), frames;
+  for (std::size_t first = 0; first < results.cases.size(); first += 8) {
+    StudyResults part{results.name, {}};
+    for (std::size_t n = first; n < std::min(first + 8, results.cases.size()); ++n)
+      part.cases.push_back(results.cases[n]);
+    frames += curves(part, study, "carriers_emitted", true, "carriers emitted, of all",
+                     "Carriers that have left (history.csv of the first replicate).");
+    frames += curves(part, study, "FFE", false, "fines emitted free (FFE)",
+                     "Fines that have left free of a carrier; cases that share a run share this curve.");
+  }
+  return out + (frames.empty() ? paragraph("No run with carriers is done yet.") : frames);
+}
+
+std::string times(const StudyResults& results) {
+  Rows rows;
+  for (const StudyCaseResult& c : results.cases)
+    if (c.find("retained_fraction"))
+      rows.push_back({escaped(c.name), with_given(c, "first_motion", 1e3), with_given(c, "first_emitted", 1e3),
+                      with_given(c, "last_emitted", 1e3)});
+  if (rows.empty()) return "";
+  return table({"case", "first motion [ms]", "first emitted [ms]", "last emitted [ms]"}, rows);
+}
+
+std::string collisions(const StudyResults& results) {
+  Rows rows;
+  for (const StudyCaseResult& c : results.cases)
+    if (c.find("collisions.wall"))
+      rows.push_back({escaped(c.name), with_given(c, "collisions.wall"), with_given(c, "collisions.particle"),
+                      with_given(c, "median_per_carrier"), with_given(c, "median_per_emitted_carrier"),
+                      with_given(c, "mean_wall_energy", 1e12), with_given(c, "mean_particle_energy", 1e12)});
+  std::string out = heading("Collisions");
+  if (rows.empty()) return out + paragraph("No run with carriers is done yet.");
+  return out +
+         table({"case", "with walls", "with carriers", "median a carrier", "median an emitted carrier",
+                "mean wall energy [pJ]", "mean carrier energy [pJ]"},
+               rows) +
+         paragraph("Counted per single carrier; in brackets: the thesis.");
+}
+
+std::string pressures(const StudyResults& results) {
+  Rows rows;
+  for (const StudyCaseResult& c : results.cases)
+    if (c.find("static_drop") || c.find("total_to_static_drop"))
+      rows.push_back({escaped(c.name), with_given(c, "static_drop"), with_given(c, "total_to_static_drop")});
+  std::string out = heading("Pressure drops");
+  if (rows.empty()) return out + paragraph("No run has measured one yet.");
+  return out + table({"case", "static [Pa]", "total to static [Pa]"}, rows) +
+         paragraph("Means over the window of each run (its last tenth unless the case says otherwise).");
+}
+
+}  // namespace
+
+std::string make_study_report(const fs::path& study) {
+  const StudyResults results = read_study_results(study);
+  return page(results.name, "<h1>" + escaped(results.name) + "</h1>\n" + overview(results) + outcomes(results) +
+                                emission(results, study) + times(results) + collisions(results) + pressures(results) +
+                                "<p class=soft>The numbers of this page are in results.csv, results.json and (run by "
+                                "run) runs.csv; the curves in the history.csv of each run.</p>\n");
+}
+
+}  // namespace puffin::output

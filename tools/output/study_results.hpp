@@ -1,0 +1,55 @@
+#pragma once
+// What a study came to: mean and confidence interval of every number over the replicates of each case.
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tools/output/summary.hpp"
+
+namespace puffin::output {
+
+struct StudyRun {
+  std::string folder;  // relative to the study's
+  std::string state;   // waiting | running | done | failed | stopped
+  int exit_code = 0;
+  std::string message;
+  std::string scalar;              // of a shared run: the scalar of this case; else ""
+  std::optional<Summary> summary;  // of a finished run, `fines` cut to this case's scalar
+};
+
+struct Estimate {
+  double mean = 0.0, low = 0.0, high = 0.0;  // of the values
+  std::optional<double> ci_low, ci_high;     // 95 %, Student's t over the replicates; absent for one
+  int n = 0;                                 // replicates that have the number
+};
+
+struct StudyCaseResult {
+  std::string name;
+  std::vector<std::pair<std::string, std::string>> sets;
+  std::vector<StudyRun> runs;
+  std::vector<std::pair<std::string, Estimate>> numbers;  // by quantity
+  std::vector<ReferenceValue> reference;
+  const Estimate* find(const std::string& quantity) const;
+  /// "thesis", "FFE" -> the value of [reference.thesis] FFE.
+  const ReferenceValue* given(const std::string& source, const std::string& quantity) const;
+};
+
+struct StudyResults {
+  std::string name;
+  std::vector<StudyCaseResult> cases;
+};
+
+/// Mean and 95 % confidence interval of independent values. Throws std::invalid_argument without any.
+Estimate estimate(const std::vector<double>& values);
+
+/// Reads study.json and the summaries of its finished runs. Throws OutputError if study.json is missing or damaged.
+StudyResults read_study_results(const std::filesystem::path& study);
+/// results.csv (a row a case and quantity), runs.csv (a row a run) and results.json.
+void write_study_tables(const StudyResults& results, const std::filesystem::path& study);
+std::string study_results_json(const StudyResults& results, std::optional<int> exit_code = {});
+
+}  // namespace puffin::output

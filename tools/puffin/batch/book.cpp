@@ -1,0 +1,213 @@
+#include "tools/puffin/batch/book.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tools/output/output_error.hpp"
+#include "tools/output/output_folder.hpp"
+#include "tools/output/report/html.hpp"
+#include "tools/output/summary.hpp"
+
+namespace puffin::tools {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+std::string text_of(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+constexpr const char* state_names[] = {"waiting", "running", "done", "failed", "stopped"};
+
+JobState state_of(const std::string& name) {
+  for (int n = 0; n < 5; ++n)
+    if (name == state_names[n]) return static_cast<JobState>(n);
+  return JobState::waiting;
+}
+
+std::string dumped(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
+
+/// How far a run is, from the status that it writes itself.
+Json progress_of(const fs::path& run) {
+  Json j = Json::object();
+  try {
+    const output::Status s = output::read_status(run / "status.json");
+    j["phase"] = s.phase;
+    j["simulated_time"] = s.simulated_time;
+    j["end_time"] = s.end_time;
+    j["mlups"] = s.mlups;
+    j["eta"] = s.eta ? Json(*s.eta) : Json(nullptr);
+  } catch (const output::OutputError&) {  // it has not written one yet
+  }
+  return j;
+}
+
+std::string page_of(const Json& status) {
+  std::string body = "<h1>" + output::escaped(status["study"].get<std::string>()) + "</h1><p>" +
+                     output::escaped(status["state"].get<std::string>()) + ": " + status["done"].dump() + " of " +
+                     status["jobs"].dump() + " runs done, " + status["failed"].dump() + " failed</p>\n";
+  std::vector<std::vector<std::string>> rows;
+  for (const Json& job : status["runs"]) {
+    const double end = job.value("end_time", 0.0), now = job.value("simulated_time", 0.0);
+    const bool known = end > 0.0 && job["state"] == "running";
+    rows.push_back({output::escaped(job["id"].get<std::string>()), job["state"].get<std::string>(),
+                    known ? "<progress max=1 value=" + output::significant(now / end) + "></progress> " +
+                                output::significant(1e3 * now) + " of " + output::significant(1e3 * end) + " ms"
+                          : output::escaped(job.value("message", "")),
+                    job.contains("eta") && job["eta"].is_number() && known
+                        ? output::significant(job["eta"].get<double>()) + " s to go"
+                        : ""});
+  }
+  std::string html =
+      output::page(status["study"].get<std::string>(), body + output::table({"run", "state", "", ""}, rows));
+  const bool live = status["state"] == "running";
+  if (const auto at = html.find("<head>"); live && at != std::string::npos)
+    html.insert(at + 6, "\n<meta http-equiv=\"refresh\" content=\"3\">");
+  return html;
+}
+
+/// The base's given values stand for a case that is the same device with the same drug: another grid or output leaves
+/// them, any other change keeps only what it gives itself.
+Json reference_of(const cases::StudyCase& c) {
+  const bool same = std::all_of(c.sets.begin(), c.sets.end(), [](const cases::Override& o) {
+    return o.key.starts_with("numerics.") || o.key.starts_with("output.") || o.key.starts_with("reference.");
+  });
+  Json reference = Json::object();
+  const auto given_here = [&](const std::string& name) {
+    return std::any_of(c.sets.begin(), c.sets.end(),
+                       [&](const cases::Override& o) { return ("reference." + name).starts_with(o.key); });
+  };
+  try {
+    for (const auto& [name, value] : cases::read_case(c.base, c.sets).reference) {
+      if (!same && !given_here(name)) continue;
+      if (const auto* number = std::get_if<double>(&value)) reference[name] = *number;
+      if (const auto* list = std::get_if<std::vector<double>>(&value)) reference[name] = *list;
+    }
+  } catch (const std::exception&) {  // an invalid case has no reference; its job says why
+  }
+  return reference;
+}
+
+}  // namespace
+
+const char* name_of(JobState state) { return state_names[static_cast<int>(state)]; }
+
+Book::Book(fs::path folder, const cases::Study& study, const Jobs& plan)
+    : folder_(std::move(folder)), study_(study), plan_(plan), records_(plan.jobs.size()) {
+  std::error_code error;
+  fs::create_directories(folder_, error);
+  folder_ = fs::absolute(folder_);
+  lock_ = open((folder_ / ".lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+  if (lock_ < 0)
+    throw output::OutputError("cannot write into " + folder_.string() + "; choose another folder with --out");
+  if (flock(lock_, LOCK_EX | LOCK_NB) != 0) {
+    close(lock_);
+    throw output::OutputError("another batch is at work in " + folder_.string() + "; wait for it, or give --out");
+  }
+  const Json before = Json::parse(text_of(folder_ / "study.json"), nullptr, false);
+  if (!before.is_object() || !before.contains("jobs")) return;
+  for (const Json& j : before["jobs"])
+    for (std::size_t n = 0; n < records_.size(); ++n)
+      if (plan.jobs[n].id == j.value("id", "")) {
+        records_[n] = {state_of(j.value("state", "")), j.value("exit_code", 0), j.value("message", ""),
+                       j.value("seconds", 0.0),        j.value("attempts", 0),  j.value("threads", 0)};
+        if (records_[n].state == JobState::running) records_[n].state = JobState::stopped;  // that batch was killed
+      }
+}
+
+Book::~Book() {
+  if (lock_ >= 0) close(lock_);
+}
+
+bool Book::finished(std::size_t job) const {
+  const fs::path run = run_folder(job);
+  if (!fs::exists(run / "summary.json") || output::read_summary(run / "summary.json").state != "finished") return false;
+  if (text_of(run / "case.toml") == plan_.jobs[job].resolved) return true;
+  throw output::OutputError(run.string() + " holds a finished run of another case than the study's " +
+                            plan_.jobs[job].id + "; give the changed study another folder with --out");
+}
+
+bool Book::resumable(std::size_t job) const {
+  const fs::path run = run_folder(job);
+  return fs::exists(run / "checkpoints") && !output::list_checkpoints(run).empty();
+}
+
+void Book::move_aside(std::size_t job) const {
+  const fs::path run = run_folder(job);
+  if (!fs::exists(run)) return;
+  for (int n = 1;; ++n) {
+    const fs::path aside = run.string() + ".failed-" + std::to_string(n);
+    if (fs::exists(aside)) continue;
+    fs::rename(run, aside);
+    return;
+  }
+}
+
+void Book::write() const {
+  Json cases = Json::array(), jobs = Json::array();
+  for (std::size_t n = 0; n < study_.cases.size(); ++n) {
+    const cases::StudyCase& c = study_.cases[n];
+    Json sets = Json::object(), runs = Json::array();
+    for (const cases::Override& o : c.sets) sets[o.key] = o.value;
+    for (std::size_t k = 0; k < plan_.jobs.size(); ++k)
+      for (const Member& m : plan_.jobs[k].members)
+        if (m.which == n)
+          runs.push_back({{"replicate", plan_.jobs[k].replicate}, {"job", plan_.jobs[k].id}, {"scalar", m.scalar}});
+    const Json reference = reference_of(c);
+    cases.push_back({{"name", c.name},
+                     {"base", c.base.string()},
+                     {"set", sets},
+                     {"swept", c.swept},
+                     {"reference", reference},
+                     {"runs", runs}});
+  }
+  for (std::size_t k = 0; k < plan_.jobs.size(); ++k) {
+    const JobRecord& r = records_[k];
+    jobs.push_back({{"id", plan_.jobs[k].id},
+                    {"state", name_of(r.state)},
+                    {"exit_code", r.exit_code},
+                    {"message", r.message},
+                    {"seconds", r.seconds},
+                    {"attempts", r.attempts},
+                    {"threads", r.threads}});
+  }
+  output::write_whole(folder_ / "study.json",
+                      dumped({{"study", study_.file.string()}, {"cases", cases}, {"jobs", jobs}}));
+}
+
+void Book::write_live(const std::string& state, double wall_clock) const {
+  Json runs = Json::array();
+  int done = 0, failed = 0;
+  double cost_done = 0.0, cost_all = 0.0;
+  for (std::size_t k = 0; k < plan_.jobs.size(); ++k) {
+    const JobRecord& r = records_[k];
+    Json j{{"id", plan_.jobs[k].id}, {"state", name_of(r.state)}, {"threads", r.threads}};
+    if (!r.message.empty()) j["message"] = r.message;
+    if (r.state == JobState::running) j.update(progress_of(run_folder(k)));
+    done += r.state == JobState::done;
+    failed += r.state == JobState::failed;
+    cost_all += plan_.jobs[k].cost;
+    if (r.state == JobState::done) cost_done += plan_.jobs[k].cost;
+    runs.push_back(j);
+  }
+  const Json status{{"study", study_.file.stem().string()},
+                    {"state", state},
+                    {"jobs", plan_.jobs.size()},
+                    {"done", done},
+                    {"failed", failed},
+                    {"work_done", cost_all > 0.0 ? cost_done / cost_all : 0.0},
+                    {"wall_clock", wall_clock},
+                    {"runs", runs}};
+  output::write_whole(folder_ / "status.json", dumped(status));
+  output::write_whole(folder_ / "index.html", page_of(status));
+}
+
+}  // namespace puffin::tools

@@ -1,0 +1,44 @@
+#pragma once
+// A study as runs of the program: which cases share a run, where each writes, what it is expected to cost.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "cases/study.hpp"
+
+namespace puffin::tools {
+
+/// One case in a job, and the scalar of the run that is its own ("" where the run is the case's alone).
+struct Member {
+  std::size_t which = 0;  // index in the study
+  std::string scalar;
+};
+
+struct Job {
+  std::string id;               // also its folder below the study's: NAME/seed-N or shared/NAME+NAME/seed-N
+  std::vector<Member> members;  // the first one's case file is run
+  int replicate = 0;
+  std::filesystem::path base;
+  std::vector<cases::Override> sets;
+  std::string resolved;  // the case as the run will write it; empty if it is invalid
+  std::string problem;   // why it is invalid
+  double cost = 0.0;     // relative: cells times steps
+};
+
+struct Sharing {
+  std::string name;  // a word of `share`
+  bool done = false;
+  std::string what, error;  // what is shared or why not; exact, or how far off
+};
+
+struct Jobs {
+  std::vector<Job> jobs;
+  std::vector<Sharing> sharings;
+};
+
+/// share = scalars: cases that are equal but for their name, reference and the diffusion and scheme of their one
+/// reflected scalar run once with a scalar each: fines do not act on air or carriers.
+Jobs plan_jobs(const cases::Study& study, std::string_view preset);
+
+}  // namespace puffin::tools
