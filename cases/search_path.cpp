@@ -16,4 +16,12 @@ std::span<const std::string> micromodel_directories() {
   return folders;
 }
 
+std::filesystem::path found_micromodels(const std::filesystem::path& file) {
+  std::error_code error;
+  if (file.is_absolute() || std::filesystem::exists(file, error)) return file;
+  for (const std::string& folder : micromodel_directories())
+    if (const auto found = folder / file; std::filesystem::exists(found, error)) return found;
+  return file;
+}
+
 }  // namespace puffin::cases

@@ -1,6 +1,7 @@
 #pragma once
 // Where the files that come with Puffin are.
 
+#include <filesystem>
 #include <span>
 #include <string>
 
@@ -9,5 +10,8 @@ namespace puffin::cases {
 /// Folders searched for micro-model files after the case file's own: share/puffin/micromodels of the installation that
 /// the program runs from, then cases/micromodels of the source tree it was built from.
 std::span<const std::string> micromodel_directories();
+
+/// The file as given if it is there, else the one of that name in micromodel_directories(), else as given.
+std::filesystem::path found_micromodels(const std::filesystem::path& file);
 
 }  // namespace puffin::cases

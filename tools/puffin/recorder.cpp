@@ -6,6 +6,7 @@
 
 #include "coupling/checkpoint/bytes.hpp"
 #include "tools/output/stats_file.hpp"
+#include "tools/puffin/replay_record.hpp"
 #include "tools/puffin/frames_of.hpp"
 
 namespace puffin::tools {
@@ -15,6 +16,17 @@ using coupling::Vec3;
 namespace {
 
 constexpr const char* journal_name = "checkpoints/events.journal";
+
+void add_fines(const OpenContact& contact, output::EventRecord& r) {
+  r.detached = contact.taken.air + contact.taken.wall;
+  r.attached = contact.taken.wall;
+  r.angle = contact.angle;
+  r.order = static_cast<double>(contact.order);
+  r.drag_a = contact.mark.drag_a;
+  r.drag_b = contact.mark.drag_b;
+  r.a_loses = contact.mark.a_loses;
+  r.b_loses = contact.mark.b_loses;
+}
 
 /// The contacts that last beyond the end of the run, as if they ended now.
 std::vector<output::EventRecord> open_contacts(const cases::Simulation& s, const MovedFines& moved) {
@@ -36,10 +48,8 @@ std::vector<output::EventRecord> open_contacts(const cases::Simulation& s, const
     r.energy = 0.5 * mass * speed * speed;
     r.max_force = contact.max_force;
     r.max_overlap = contact.max_overlap;
-    if (const auto found = moved.find({r.a, r.b, r.triangle, r.time_start}); found != moved.end()) {
-      r.detached = found->second.air + found->second.wall;
-      r.attached = found->second.wall;
-    }
+    if (const auto found = moved.find({r.a, r.b, r.triangle, r.time_start}); found != moved.end())
+      add_fines(found->second, r);
     records.push_back(r);
   }
   std::sort(records.begin(), records.end(), [](const output::EventRecord& x, const output::EventRecord& y) {
@@ -98,6 +108,7 @@ Recorder::Recorder(const cases::Simulation& s, const output::OutputFolder& folde
     history_ = resume->history;
     lines_ = resume->lines;
     moved_ = resume->moved;
+    begun_ = resume->begun;
   }
   open_files(s, resume);
   if (!resume) walls_vtk_->append(0.0, wall_frame(s));
@@ -137,6 +148,7 @@ RecorderState Recorder::state() const {
   r.history = history_;
   r.lines = lines_;
   r.moved = moved_;
+  r.begun = begun_;
   const output::CsvFile* tables[] = {history_csv_.get(), probes_csv_.get(), planes_csv_.get(), forces_csv_.get(),
                                      tracks_csv_.get()};
   for (std::size_t n = 0; n < r.tables.size(); ++n) r.tables[n] = tables[n] ? tables[n]->bytes() : 0;
@@ -185,11 +197,11 @@ void Recorder::take_events(const cases::Simulation& s) {
   if (!events_) return;
   const auto& events = s.state.events;
   const auto& taken = s.state.release.taken();
-  for (std::size_t n = 0; n < events.begun.size() && n < taken.size(); ++n)
-    if (taken[n].air + taken[n].wall > 0.0) {
-      const auto& c = events.begun[n];
-      moved_[{c.a, c.b, c.triangle, c.time}] = taken[n];
-    }
+  const auto& marks = s.state.release.marks();
+  for (std::size_t n = 0; n < events.begun.size() && n < taken.size(); ++n) {
+    const auto& c = events.begun[n];
+    moved_[{c.a, c.b, c.triangle, c.time}] = {taken[n], marks[n], coupling::angle_to_surface(c), begun_++};
+  }
   std::vector<output::EventRecord> records;
   for (const auto& c : events.ended) {
     output::EventRecord r;
@@ -204,8 +216,7 @@ void Recorder::take_events(const cases::Simulation& s) {
     r.max_force = c.max_force;
     r.max_overlap = c.max_overlap;
     if (const auto found = moved_.find({c.a, c.b, c.triangle, c.time_start}); found != moved_.end()) {
-      r.detached = found->second.air + found->second.wall;
-      r.attached = found->second.wall;
+      add_fines(found->second, r);
       moved_.erase(found);
     }
     records.push_back(r);
@@ -318,7 +329,9 @@ void Recorder::finish(const cases::Simulation& s) {
   for (auto* csv : {&history_csv_, &probes_csv_, &planes_csv_, &forces_csv_, &tracks_csv_})
     if (*csv) (*csv)->flush();
   write_stats();
-  if (events_) events_->write_events(folder_.file("events.h5"), open_contacts(s, moved_));
+  if (!events_) return;
+  const auto tables = replay_tables(s);
+  events_->write_events(folder_.file("events.h5"), open_contacts(s, moved_), tables ? &*tables : nullptr);
 }
 
 }  // namespace puffin::tools

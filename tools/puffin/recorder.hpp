@@ -72,6 +72,7 @@ class Recorder {
   std::unique_ptr<output::VtkSeries> fields_vtk_, carriers_vtk_, walls_vtk_;
   std::vector<LineSums> lines_;
   MovedFines moved_;
+  std::int64_t begun_ = 0;
 };
 
 /// One row of the history at this moment.
