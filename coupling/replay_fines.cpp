@@ -19,7 +19,8 @@ class DragDemand {
     if (own_) return;
     for (const auto& s : record.slip)
       if (s.seconds > 0.0)
-        total_.at(s.carrier) += rate(*models.drag_detach, s.metres / s.seconds) * s.seconds * record.carriers[s.carrier].initial;
+        total_.at(s.carrier) +=
+            rate(*models.drag_detach, s.metres / s.seconds) * s.seconds * record.carriers[s.carrier].initial;
   }
   /// `recorded`: what the run's own law asked for.
   double until(std::int64_t id, double time, double recorded) {

@@ -15,10 +15,10 @@ namespace puffin::coupling {
 /// What a run leaves behind about its fines.
 struct FinesRecord {
   struct Contact {
-    std::int64_t a = -1, b = -1;                                    // ids; b = -1: a wall
-    double time = 0.0;                                              // of first touch [s]
-    double normal_speed = 0.0, tangential_speed = 0.0, angle = 0.0; // [m/s]; [degrees], 90: head on
-    bool a_loses = false, b_loses = false;                          // as ContactMark
+    std::int64_t a = -1, b = -1;                                     // ids; b = -1: a wall
+    double time = 0.0;                                               // of first touch [s]
+    double normal_speed = 0.0, tangential_speed = 0.0, angle = 0.0;  // [m/s]; [degrees], 90: head on
+    bool a_loses = false, b_loses = false;                           // as ContactMark
     double drag_a = 0.0, drag_b = 0.0;
   };
   struct Carrier {

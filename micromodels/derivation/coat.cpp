@@ -35,7 +35,8 @@ std::vector<Vector3d> place_fines(int fines, double fine, double carrier, int pa
     if (trial > 4000L * fines)
       throw std::invalid_argument("the fines do not find room on the carrier: fewer or smaller fines, or more patches");
     const Vector3d n = random_direction(random);
-    if (patches > 0 && std::none_of(centres.begin(), centres.end(), [&](const Vector3d& c) { return c.dot(n) > in_patch; }))
+    if (patches > 0 &&
+        std::none_of(centres.begin(), centres.end(), [&](const Vector3d& c) { return c.dot(n) > in_patch; }))
       continue;
     const int s = slice_of(n.z());
     bool room = true;

@@ -16,13 +16,11 @@ struct Mean {
   int n = 0;
   void add(double x) { sum += x, squares += x * x, ++n; }
   double mean() const { return n > 0 ? sum / n : 0.0; }
-  double error() const {
-    return n > 1 ? std::sqrt(std::max(0.0, squares / n - mean() * mean()) / (n - 1)) : 0.0;
-  }
+  double error() const { return n > 1 ? std::sqrt(std::max(0.0, squares / n - mean() * mean()) / (n - 1)) : 0.0; }
 };
 
-std::vector<Point> with_errors(std::span<const DerivedPoint> points, int fines, double form, double DerivedPoint::*value,
-                               double DerivedPoint::*error) {
+std::vector<Point> with_errors(std::span<const DerivedPoint> points, int fines, double form,
+                               double DerivedPoint::*value, double DerivedPoint::*error) {
   std::vector<Point> out;
   for (const DerivedPoint& p : points) {
     const double one = 1.0 / (static_cast<double>(fines) * p.impacts);

@@ -57,14 +57,16 @@ double GrainSystem::overlap(int a, int b) const {
 void GrainSystem::find_pairs() {
   std::vector<Pair> old;
   old.swap(pairs_);
-  std::sort(old.begin(), old.end(), [](const Pair& x, const Pair& y) { return std::pair(x.a, x.b) < std::pair(y.a, y.b); });
+  std::sort(old.begin(), old.end(),
+            [](const Pair& x, const Pair& y) { return std::pair(x.a, x.b) < std::pair(y.a, y.b); });
   const double infinite = std::numeric_limits<double>::infinity();
   const auto consider = [&](int a, int b) {
     if (overlap(a, b) < -skin_) return;
     const Grain& ga = grains_[static_cast<std::size_t>(a)];
     const Grain* gb = b < 0 ? nullptr : &grains_[static_cast<std::size_t>(b)];
-    Pair pair{a, b, pair_contact(surface_, ga.radius, gb ? gb->radius : infinite, ga.mass, gb ? gb->mass : infinite,
-                                 b < 0, ga.adhesion * (gb ? gb->adhesion : 1.0))};
+    Pair pair{a, b,
+              pair_contact(surface_, ga.radius, gb ? gb->radius : infinite, ga.mass, gb ? gb->mass : infinite, b < 0,
+                           ga.adhesion * (gb ? gb->adhesion : 1.0))};
     const auto found = std::lower_bound(old.begin(), old.end(), std::pair(a, b),
                                         [](const Pair& x, const auto& key) { return std::pair(x.a, x.b) < key; });
     if (found != old.end() && found->a == a && found->b == b) pair.spring = found->spring;
@@ -121,7 +123,8 @@ void GrainSystem::add_forces(Pair& pair, double dt) {
   } else {
     pair.spring.setZero();
     // The fading adhesion has the slope 2 F0/d0 at contact.
-    stiffest_ = std::max(stiffest_, 2.0 * pair.law.pull / (pair.law.gap * pair.law.mass) / std::pow(1.0 - depth / pair.law.gap, 3));
+    stiffest_ = std::max(
+        stiffest_, 2.0 * pair.law.pull / (pair.law.gap * pair.law.mass) / std::pow(1.0 - depth / pair.law.gap, 3));
   }
   force_[a] += force;
   if (!wall) force_[b] -= force;

@@ -39,9 +39,10 @@ PairContact on_carrier(const Scene& s, double adhesion) {
 /// How far carrier and obstacle approach each other beyond first touch [m], generously: fines are softer than carriers.
 double reach(const Scene& s, double speed) {
   const double fine = 0.5 * s.fine_diameter;
-  const PairContact c = s.target == Partner::wall
-                            ? pair_contact(s.surface, fine, std::numeric_limits<double>::infinity(), 1.0, 1.0, true, 1.0)
-                            : pair_contact(s.surface, fine, fine, 1.0, 1.0, false, 1.0);
+  const PairContact c =
+      s.target == Partner::wall
+          ? pair_contact(s.surface, fine, std::numeric_limits<double>::infinity(), 1.0, 1.0, true, 1.0)
+          : pair_contact(s.surface, fine, fine, 1.0, 1.0, false, 1.0);
   const double mass = (s.target == Partner::wall ? 1.0 : 0.5) * (carrier_mass(s) + s.fines * fine_mass(s));
   const double one = std::pow(15.0 * mass * speed * speed / (16.0 * c.modulus * std::sqrt(c.radius)), 0.4);
   return std::min(1.5 * one, 2.0 * s.fine_diameter) + 0.3 * fine;
@@ -55,7 +56,8 @@ struct Body {
 };
 
 /// Adds the carrier at the origin with its fines; moved to its place later.
-void add_body(const Scene& s, double side, double cap, const Vector3d& velocity, Body& body, std::vector<Grain>& grains) {
+void add_body(const Scene& s, double side, double cap, const Vector3d& velocity, Body& body,
+              std::vector<Grain>& grains) {
   const double radius = 0.5 * s.carrier_diameter, fine = 0.5 * s.fine_diameter, mf = fine_mass(s);
   body.first = static_cast<int>(grains.size());
   grains.push_back({Vector3d::Zero(), velocity, Vector3d::Zero(), radius, carrier_mass(s), 1.0, true});
@@ -204,7 +206,8 @@ void check(const Scene& s) {
     require(positive(m.youngs_modulus), "Young's moduli must be > 0");
     require(m.poisson >= 0.0 && m.poisson <= 0.5, "Poisson's ratios must lie in [0, 0.5]");
   }
-  require(positive(s.surface.surface_energy) && positive(s.surface.cutoff_gap), "surface_energy and cutoff_gap must be > 0");
+  require(positive(s.surface.surface_energy) && positive(s.surface.cutoff_gap),
+          "surface_energy and cutoff_gap must be > 0");
   require(s.surface.restitution > 0.0 && s.surface.restitution <= 1.0, "restitution must lie in (0, 1]");
   require(std::isfinite(s.surface.friction) && s.surface.friction >= 0.0, "friction must be >= 0");
 }

@@ -60,7 +60,8 @@ double lift_off_ratio(const PairContact& contact, double mass, const Motion& mot
 
 double capture_speed(const PairContact& c) {
   const double work = c.pull / (2.0 * std::numbers::pi * c.radius);
-  return std::sqrt(14.18 / c.mass) * std::cbrt(std::sqrt(std::pow(work, 5) * std::pow(c.radius, 4) / (c.modulus * c.modulus)));
+  return std::sqrt(14.18 / c.mass) *
+         std::cbrt(std::sqrt(std::pow(work, 5) * std::pow(c.radius, 4) / (c.modulus * c.modulus)));
 }
 
 }  // namespace puffin::micromodels::derivation

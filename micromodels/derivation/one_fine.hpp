@@ -9,8 +9,8 @@ namespace puffin::micromodels::derivation {
 
 /// Motion of a carrier, averaged over a short interval.
 struct MotionSample {
-  double duration = 0.0;                                // [s]
-  Vector3d acceleration = Vector3d::Zero();             // mean [m/s^2]
+  double duration = 0.0;                                          // [s]
+  Vector3d acceleration = Vector3d::Zero();                       // mean [m/s^2]
   Vector3d velocity = Vector3d::Zero(), spin = Vector3d::Zero();  // at its end
 };
 using Motion = std::vector<MotionSample>;

@@ -11,8 +11,8 @@ namespace puffin::output {
 
 struct ReplayTables {
   struct Carrier {
-    double initial = 0.0;      // fines loaded
-    double drag_rest = 0.0;    // fines that the drag law asked for since the last contact
+    double initial = 0.0;    // fines loaded
+    double drag_rest = 0.0;  // fines that the drag law asked for since the last contact
     std::int32_t id = -1;
     std::int32_t emitted = 0;  // 1: left the device
   };

@@ -6,8 +6,8 @@
 
 #include "coupling/checkpoint/bytes.hpp"
 #include "tools/output/stats_file.hpp"
-#include "tools/puffin/replay_record.hpp"
 #include "tools/puffin/frames_of.hpp"
+#include "tools/puffin/replay_record.hpp"
 
 namespace puffin::tools {
 

@@ -17,8 +17,8 @@ void add_carriers(const coupling::Fines& fines, ReplayTables& tables) {
         {fines.initial[id], fines.slip.asked[id], static_cast<std::int32_t>(id), fines.emitted[id]});
     for (int k = 0; k < classes; ++k)
       if (const std::size_t at = id * classes + static_cast<std::size_t>(k); fines.slip.seconds[at] > 0.0)
-        tables.slip.push_back(
-            {fines.slip.seconds[at], fines.slip.metres[at], static_cast<std::int32_t>(id), static_cast<std::int32_t>(k)});
+        tables.slip.push_back({fines.slip.seconds[at], fines.slip.metres[at], static_cast<std::int32_t>(id),
+                               static_cast<std::int32_t>(k)});
   }
 }
 

@@ -25,6 +25,7 @@ struct StoredRun {
 StoredRun read_stored_run(const std::filesystem::path& folder);
 
 /// As in summary.json.
-std::vector<output::FinesSummary> summaries(const coupling::Replayed& replayed, const std::vector<std::string>& scalars);
+std::vector<output::FinesSummary> summaries(const coupling::Replayed& replayed,
+                                            const std::vector<std::string>& scalars);
 
 }  // namespace puffin::tools
