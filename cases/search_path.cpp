@@ -26,4 +26,12 @@ std::filesystem::path verification_directory() {
   return std::filesystem::is_directory(there, error) ? there : std::filesystem::path(PUFFIN_CASES_DIR) / "verify";
 }
 
+std::filesystem::path found_micromodels(const std::filesystem::path& file) {
+  std::error_code error;
+  if (file.is_absolute() || std::filesystem::exists(file, error)) return file;
+  for (const std::string& folder : micromodel_directories())
+    if (const auto found = folder / file; std::filesystem::exists(found, error)) return found;
+  return file;
+}
+
 }  // namespace puffin::cases

@@ -260,12 +260,10 @@ void move_fines(const Models& models, std::int64_t steps, double interval, State
     const double before = s.fines.to_air[0].value() + s.fines.to_air[1].value() + s.fines.to_air[2].value();
     s.release.by_contacts(s.events.begun, counted_from(models, s), s.carriers.carriers, *models.fines, s.cells, s.fines,
                           s.scalars);
-    if (models.fines->drag_detach) {
-      const auto& c = s.carriers.carriers;
-      std::vector<double> slip(c.size());
-      for (std::size_t p = 0; p < c.size(); ++p) slip[p] = (s.loads[p].air_velocity - c.velocity[p]).norm();
-      s.release.by_drag(s.stencils, slip, interval, c, *models.fines, s.fines, s.scalars);
-    }
+    const auto& c = s.carriers.carriers;
+    std::vector<double> slip(c.size());
+    for (std::size_t p = 0; p < c.size(); ++p) slip[p] = (s.loads[p].air_velocity - c.velocity[p]).norm();
+    s.release.by_drag(s.stencils, slip, interval, c, *models.fines, s.fines, s.scalars);
     const double after = s.fines.to_air[0].value() + s.fines.to_air[1].value() + s.fines.to_air[2].value();
     s.airborne = s.airborne || after > before;
   }

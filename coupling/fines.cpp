@@ -16,6 +16,7 @@ Fines::Fines(const dem::Carriers& carriers, double fines_each, std::size_t trian
     sum.add(initial[carriers.id[i]]);
   }
   left = initial;
+  slip = SlipHistory(initial.size());
   loaded = sum.value();
 }
 

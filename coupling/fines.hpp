@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "coupling/slip_history.hpp"
 #include "dem/carriers.hpp"
 #include "lbm/scalars/compensated_sum.hpp"
 #include "lbm/scalars/scalar_fields.hpp"
@@ -38,6 +39,7 @@ struct Fines {
   std::array<lbm::CompensatedSum, mechanisms> to_air;
   lbm::CompensatedSum to_wall;
   std::int64_t without_air = 0;  // contacts so far outside the air that nothing could be released
+  SlipHistory slip;              // for a replay with other laws
 };
 
 /// What one event really takes from a carrier.

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "coupling/first_motion.hpp"
 #include "coupling/stencil_loop.hpp"
@@ -51,6 +52,7 @@ void FinesRelease::by_contacts(std::span<const dem::ContactBegun> begun, const s
                                const dem::Carriers& carriers, const micromodels::FinesModels& models,
                                const CellIndex& cells, Fines& fines, lbm::ScalarFields& fields) {
   taken_.assign(begun.size(), Taken{});
+  marks_.assign(begun.size(), ContactMark{});
   if (begun.empty() || !first_motion) return;
   places_.clear();
   for (const dem::ContactBegun& contact : begun) {
@@ -69,6 +71,10 @@ void FinesRelease::by_contacts(std::span<const dem::ContactBegun> begun, const s
       ++fines.without_air;
       return;
     }
+    ContactMark& mark = marks_[contact_index];
+    const bool first = id == begun[contact_index].a;
+    (first ? mark.a_loses : mark.b_loses) = true;
+    (first ? mark.drag_a : mark.drag_b) = std::exchange(fines.slip.asked[id], 0.0);
     const micromodels::Taken asked = ask(fines.initial[id], fines.left[id]);
     const Taken taken = take(asked.to_air, asked.to_wall, fines.left[id]);
     amount_[static_cast<int>(mechanism)][place] += taken.air;
@@ -104,6 +110,8 @@ void FinesRelease::by_contacts(std::span<const dem::ContactBegun> begun, const s
 void FinesRelease::by_drag(const Stencils& stencils, std::span<const double> slip, double duration,
                            const dem::Carriers& carriers, const micromodels::FinesModels& models, Fines& fines,
                            lbm::ScalarFields& fields) {
+  for (const Stencil& stencil : stencils.stencils())
+    if (stencil.count > 0) fines.slip.add(carriers.id[stencil.carrier], slip[stencil.carrier], duration);
   if (!models.drag_detach) return;
   std::vector<double>& amount = amount_[static_cast<int>(Mechanism::drag)];
   amount.resize(carriers.size());
@@ -113,6 +121,7 @@ void FinesRelease::by_drag(const Stencils& stencils, std::span<const double> sli
     const auto id = carriers.id[stencil.carrier];
     const micromodels::Taken asked =
         micromodels::drag(models, slip[stencil.carrier], duration, fines.initial[id], fines.left[id]);
+    fines.slip.asked[id] += rate(*models.drag_detach, slip[stencil.carrier]) * duration * fines.initial[id];
     amount[stencil.carrier] = take(asked.to_air, 0.0, fines.left[id]).air;
     to_air.add(amount[stencil.carrier]);
   }

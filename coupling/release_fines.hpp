@@ -14,6 +14,12 @@
 
 namespace puffin::coupling {
 
+/// What a replay must know of a contact beside its speeds.
+struct ContactMark {
+  bool a_loses = false, b_loses = false;  // begun after the first motion, with air in reach of the carrier
+  double drag_a = 0.0, drag_b = 0.0;      // fines that drag asked for since the partner's last such contact
+};
+
 /// Takes fines off carriers and puts them into the air around them, in every set of scalars, or onto the walls. Keeps
 /// nothing but scratch between calls. Call before carriers that left are removed from the list; ids ascend.
 class FinesRelease {
@@ -29,9 +35,12 @@ class FinesRelease {
 
   /// What each contact of the last by_contacts() took, of both partners together; one entry a contact.
   const std::vector<Taken>& taken() const { return taken_; }
+  /// Likewise.
+  const std::vector<ContactMark>& marks() const { return marks_; }
 
   /// Fines blown off during `duration` [s] at the slip speeds `slip` [m/s] (by place), for the carriers in `stencils`.
-  /// What was taken is given to the air where the carrier is now: call it once each scalar step, not each air step.
+  /// What was taken is given to the air where the carrier is now: call it once each scalar step, not each air step. The
+  /// slip goes into the history, with or without a law.
   void by_drag(const Stencils& stencils, std::span<const double> slip, double duration, const dem::Carriers& carriers,
                const micromodels::FinesModels& models, Fines& fines, lbm::ScalarFields& fields);
 
@@ -40,6 +49,7 @@ class FinesRelease {
 
   Stencils stencils_;
   std::vector<Taken> taken_;                            // by contact
+  std::vector<ContactMark> marks_;                      // by contact
   std::vector<int> places_;                             // of the carriers that take part
   std::vector<char> in_air_;                            // by place
   std::array<std::vector<double>, mechanisms> amount_;  // to the air, by place

@@ -14,6 +14,8 @@ set(PUFFIN_COUPLING_SOURCES
   health.cpp
   kernel.cpp
   release_fines.cpp
+  replay_fines.cpp
+  slip_history.cpp
   statistics.cpp
   stencils.cpp
   transfer.cpp

@@ -40,8 +40,9 @@ void fields(auto& archive, Is<Extremes> auto& extremes) {
 }
 
 void fields(auto& archive, Is<Fines> auto& fines) {
-  auto& [initial, left, emitted, stuck, placed, loaded, to_air, to_wall, without_air] = fines;
-  archive(initial, left, emitted, stuck, placed, loaded, to_air, to_wall, without_air);
+  auto& [initial, left, emitted, stuck, placed, loaded, to_air, to_wall, without_air, slip] = fines;
+  archive(initial, left, emitted, stuck, placed, loaded, to_air, to_wall, without_air, slip.seconds, slip.metres,
+          slip.asked);
 }
 
 void fields(auto& archive, Is<Collisions> auto& collisions) {
@@ -97,7 +98,11 @@ struct Sizes {
     if (now.populations != populations || now.triangles != triangles || now.ids != ids || now.scalars != scalars)
       return false;
     const auto by_id = [&](const auto&... arrays) { return ((arrays.size() == ids) && ...); };
-    if (!by_id(s.collisions.carriers, s.fines.initial, s.fines.left, s.fines.emitted, s.first_motion.places()))
+    if (!by_id(s.collisions.carriers, s.fines.initial, s.fines.left, s.fines.emitted, s.first_motion.places(),
+               s.fines.slip.asked))
+      return false;
+    if (s.fines.slip.seconds.size() != ids * SlipHistory::classes ||
+        s.fines.slip.metres.size() != ids * SlipHistory::classes)
       return false;
     if (s.collisions.energy.size() != triangles || s.fines.stuck.size() != triangles) return false;
     if (!s.carriers.carriers.id.empty() && static_cast<std::size_t>(s.carriers.carriers.id.back()) >= ids) return false;

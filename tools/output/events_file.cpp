@@ -24,6 +24,12 @@ Hdf5Handle compound() {
   real("max_overlap", offsetof(EventRecord, max_overlap));
   real("detached", offsetof(EventRecord, detached));
   real("attached", offsetof(EventRecord, attached));
+  real("angle", offsetof(EventRecord, angle));
+  real("order", offsetof(EventRecord, order));
+  real("drag_a", offsetof(EventRecord, drag_a));
+  real("drag_b", offsetof(EventRecord, drag_b));
+  index("a_loses", offsetof(EventRecord, a_loses));
+  index("b_loses", offsetof(EventRecord, b_loses));
   return type;
 }
 

@@ -22,6 +22,11 @@ struct EventRecord {
   double max_overlap = 0.0;       // [m]
   double detached = 0.0;          // fines that left a carrier [number, of single carriers]
   double attached = 0.0;          // of these, fines that stayed on the wall
+  // for a replay with other micro-models
+  double angle = 90.0;                    // between velocity and surface [degrees]; 90: head on
+  double order = -1.0;                    // contacts that began before it; -1: not known
+  double drag_a = 0.0, drag_b = 0.0;      // fines that drag asked for since the partner's last contact
+  std::int32_t a_loses = 0, b_loses = 0;  // 1: counted, and with air in reach: the partner could lose fines
 };
 
 /// Data set /events (compound, chunked, shuffled and deflated); attributes of the root: format = "puffin-events",

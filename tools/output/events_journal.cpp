@@ -55,7 +55,8 @@ void EventsJournal::sync() {
   sync_file(file_);
 }
 
-void EventsJournal::write_events(const fs::path& events, std::span<const EventRecord> more) {
+void EventsJournal::write_events(const fs::path& events, std::span<const EventRecord> more,
+                                 const ReplayTables* tables) {
   flush();
   const fs::path temporary = events.string() + ".part";
   try {
@@ -74,6 +75,7 @@ void EventsJournal::write_events(const fs::path& events, std::span<const EventRe
       target.append(more);
       target.flush();
     }
+    if (tables) write_replay_tables(temporary, *tables);
     finish_file(temporary, events);
   } catch (const OutputError&) {
     std::error_code error;

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "tools/output/events_file.hpp"
+#include "tools/output/replay_tables.hpp"
 
 namespace puffin::output {
 
@@ -25,8 +26,10 @@ class EventsJournal {
   /// Records so far.
   std::int64_t size() const { return size_; }
 
-  /// All records and then `more` as events.h5, which is replaced whole or not at all. Throws OutputError.
-  void write_events(const std::filesystem::path& events, std::span<const EventRecord> more);
+  /// All records, then `more`, and `tables` if given, as events.h5, which is replaced whole or not at all. Throws
+  /// OutputError.
+  void write_events(const std::filesystem::path& events, std::span<const EventRecord> more,
+                    const ReplayTables* tables = nullptr);
 
  private:
   void check() const;

@@ -37,6 +37,15 @@ Hdf5File Hdf5File::reading(const std::filesystem::path& path, const std::string&
   return file;
 }
 
+Hdf5File Hdf5File::adding(const std::filesystem::path& path, const std::string& format) {
+  const Hdf5Quiet quiet;
+  Hdf5File file;
+  file.path_ = path;
+  file.file_ = {file.good(H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), "write"), H5Fclose};
+  file.check_format(format);
+  return file;
+}
+
 void Hdf5File::check_format(const std::string& format) const {
   int version = 0;
   if (H5Aexists(file_, "format_version") > 0) {

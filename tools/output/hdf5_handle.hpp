@@ -58,6 +58,9 @@ class Hdf5File {
   /// Opens for reading and checks the format.
   static Hdf5File reading(const std::filesystem::path& path, const std::string& format);
 
+  /// Opens for adding data sets and checks the format.
+  static Hdf5File adding(const std::filesystem::path& path, const std::string& format);
+
   /// A growing one-dimensional data set, chunked, shuffled and deflated; without a time stamp, so that equal contents
   /// give equal bytes.
   Hdf5Handle create_growing(hid_t parent, const std::string& name, hid_t type, hsize_t chunk) const;

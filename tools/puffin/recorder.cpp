@@ -8,6 +8,7 @@
 #include "dem/open_contacts.hpp"
 #include "tools/output/stats_file.hpp"
 #include "tools/puffin/frames_of.hpp"
+#include "tools/puffin/replay_record.hpp"
 
 namespace puffin::tools {
 
@@ -16,6 +17,17 @@ using coupling::Vec3;
 namespace {
 
 constexpr const char* journal_name = "checkpoints/events.journal";
+
+void add_fines(const OpenContact& contact, output::EventRecord& r) {
+  r.detached = contact.taken.air + contact.taken.wall;
+  r.attached = contact.taken.wall;
+  r.angle = contact.angle;
+  r.order = static_cast<double>(contact.order);
+  r.drag_a = contact.mark.drag_a;
+  r.drag_b = contact.mark.drag_b;
+  r.a_loses = contact.mark.a_loses;
+  r.b_loses = contact.mark.b_loses;
+}
 
 /// What the log holds of a contact; the fines it moved are in `moved` if it moved any.
 output::EventRecord record_of(const dem::ContactEnded& c, const MovedFines& moved) {
@@ -30,10 +42,8 @@ output::EventRecord record_of(const dem::ContactEnded& c, const MovedFines& move
   r.energy = c.energy;
   r.max_force = c.max_force;
   r.max_overlap = c.max_overlap;
-  if (const auto found = moved.find({c.a, c.b, c.triangle, c.time_start}); found != moved.end()) {
-    r.detached = found->second.air + found->second.wall;
-    r.attached = found->second.wall;
-  }
+  if (const auto found = moved.find({c.a, c.b, c.triangle, c.time_start}); found != moved.end())
+    add_fines(found->second, r);
   return r;
 }
 
@@ -109,6 +119,7 @@ Recorder::Recorder(const cases::Simulation& s, const output::OutputFolder& folde
     totals_ = resume->totals;
     lines_ = resume->lines;
     moved_ = resume->moved;
+    begun_ = resume->begun;
   }
   open_files(s, resume);
   if (!resume) walls_vtk_->append(0.0, wall_frame(s));
@@ -149,6 +160,7 @@ RecorderState Recorder::state() const {
   r.totals = totals_;
   r.lines = lines_;
   r.moved = moved_;
+  r.begun = begun_;
   const output::CsvFile* tables[] = {history_csv_.get(), probes_csv_.get(), planes_csv_.get(), forces_csv_.get(),
                                      tracks_csv_.get()};
   for (std::size_t n = 0; n < r.tables.size(); ++n) r.tables[n] = tables[n] ? tables[n]->bytes() : 0;
@@ -201,11 +213,11 @@ void Recorder::take_events(const cases::Simulation& s) {
   if (!events_) return;
   const auto& events = s.state.events;
   const auto& taken = s.state.release.taken();
-  for (std::size_t n = 0; n < events.begun.size() && n < taken.size(); ++n)
-    if (taken[n].air + taken[n].wall > 0.0) {
-      const auto& c = events.begun[n];
-      moved_[{c.a, c.b, c.triangle, c.time}] = taken[n];
-    }
+  const auto& marks = s.state.release.marks();
+  for (std::size_t n = 0; n < events.begun.size() && n < taken.size(); ++n) {
+    const auto& c = events.begun[n];
+    moved_[{c.a, c.b, c.triangle, c.time}] = {taken[n], marks[n], coupling::angle_to_surface(c), begun_++};
+  }
   std::vector<output::EventRecord> records;
   for (const dem::ContactEnded& c : events.ended) {
     records.push_back(record_of(c, moved_));
@@ -320,7 +332,9 @@ void Recorder::finish(const cases::Simulation& s) {
   for (auto* csv : {&history_csv_, &probes_csv_, &planes_csv_, &forces_csv_, &tracks_csv_})
     if (*csv) (*csv)->flush();
   write_stats();
-  if (events_) events_->write_events(folder_.file("events.h5"), open_contacts(s, moved_));
+  if (!events_) return;
+  const auto tables = replay_tables(s);
+  events_->write_events(folder_.file("events.h5"), open_contacts(s, moved_), tables ? &*tables : nullptr);
 }
 
 }  // namespace puffin::tools

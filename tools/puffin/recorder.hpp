@@ -75,6 +75,7 @@ class Recorder {
   std::vector<LineSums> lines_;
   std::vector<Totals> totals_;  // one a row of the history
   MovedFines moved_;
+  std::int64_t begun_ = 0;
 };
 
 /// Columns of stats.h5: those of history.csv, then the totals of the domain.

@@ -11,6 +11,10 @@ static void fields(auto& archive, Is<Taken> auto& taken) {
   auto& [air, wall] = taken;
   archive(air, wall);
 }
+static void fields(auto& archive, Is<ContactMark> auto& mark) {
+  auto& [a_loses, b_loses, drag_a, drag_b] = mark;
+  archive(a_loses, b_loses, drag_a, drag_b);
+}
 }  // namespace puffin::coupling
 
 namespace puffin::output {
@@ -39,9 +43,15 @@ static void fields(auto& archive, Is<LineSums> auto& line) {
   archive(sum, inside, samples);
 }
 
+static void fields(auto& archive, Is<OpenContact> auto& contact) {
+  auto& [taken, mark, angle, order] = contact;
+  archive(taken, mark, angle, order);
+}
+
 static void fields(auto& archive, Is<RecorderState> auto& state) {
-  auto& [statistics_next, carriers_next, fields_next, history, totals, lines, moved, tables, events, series] = state;
-  archive(statistics_next, carriers_next, fields_next, history, totals, lines, moved, tables, events, series);
+  auto& [statistics_next, carriers_next, fields_next, history, totals, lines, moved, begun, tables, events, series] =
+      state;
+  archive(statistics_next, carriers_next, fields_next, history, totals, lines, moved, begun, tables, events, series);
 }
 
 void save(const RecorderState& state, std::vector<std::byte>& bytes) { coupling::ByteWriter{bytes}(state); }

@@ -19,8 +19,16 @@ struct LineSums {
   std::int64_t samples = 0;
 };
 
-/// Fines moved by contacts that are not over yet, by (a, b, triangle, start).
-using MovedFines = std::map<std::tuple<std::int64_t, std::int64_t, int, double>, coupling::Taken>;
+/// What became of the fines at a contact that is not over yet.
+struct OpenContact {
+  coupling::Taken taken;
+  coupling::ContactMark mark;
+  double angle = 90.0;  // [degrees], 90: head on
+  std::int64_t order = 0;
+};
+
+/// By (a, b, triangle, start).
+using MovedFines = std::map<std::tuple<std::int64_t, std::int64_t, int, double>, OpenContact>;
 
 struct RecorderState {
   double statistics_next = 0.0, carriers_next = 0.0;  // [s]
@@ -29,6 +37,7 @@ struct RecorderState {
   std::vector<Totals> totals;  // one a row of the history
   std::vector<LineSums> lines;
   MovedFines moved;
+  std::int64_t begun = 0;  // contacts so far
   // How far the files were.
   std::array<std::uint64_t, 5> tables{0, 0, 0, 0, 0};  // [byte] history, probes, planes, forces, tracks
   std::int64_t events = 0;                             // records
