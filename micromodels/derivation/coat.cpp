@@ -24,15 +24,23 @@ std::vector<Vector3d> place_fines(int fines, double fine, double carrier, int pa
   std::mt19937_64 random(seed);
   std::vector<Vector3d> centres, placed;
   for (int p = 0; p < patches; ++p) centres.push_back(random_direction(random));
-  // A cap of half-angle a covers (1 - cos a)/2 of a sphere.
-  const double in_patch = patches > 0 ? 1.0 - 2.0 * 0.75 / patches : -1.0;
+  double in_patch = -1.0;  // cosine of the patches' half-angle: three of four directions are in one
+  if (patches > 0) {
+    std::vector<double> nearest(4000, -1.0);
+    for (double& cosine : nearest) {
+      const Vector3d n = random_direction(random);
+      for (const Vector3d& c : centres) cosine = std::max(cosine, c.dot(n));
+    }
+    std::nth_element(nearest.begin(), nearest.begin() + 1000, nearest.end());
+    in_patch = nearest[1000];
+  }
   const double chord = 2.0 * fine / (carrier + fine), too_near = 1.0 - 0.5 * chord * chord;  // as a cosine
   // Slices in z, each at least as wide as a chord, so that only three need to be searched.
   const int slices = std::max(1, static_cast<int>(2.0 / chord));
   std::vector<std::vector<Vector3d>> slice(static_cast<std::size_t>(slices));
   const auto slice_of = [&](double z) { return std::clamp(static_cast<int>(0.5 * (z + 1.0) * slices), 0, slices - 1); };
   for (long trial = 0; static_cast<int>(placed.size()) < fines; ++trial) {
-    if (trial > 4000L * fines)
+    if (trial > 1000L * fines)
       throw std::invalid_argument("the fines do not find room on the carrier: fewer or smaller fines, or more patches");
     const Vector3d n = random_direction(random);
     if (patches > 0 &&

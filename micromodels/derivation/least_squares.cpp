@@ -32,8 +32,8 @@ struct Functor {
 
 double student_95(int freedom) {
   if (freedom < 1) return std::numeric_limits<double>::infinity();
-  if (freedom == 1) return 12.7062;
-  if (freedom == 2) return 4.3027;
+  constexpr double table[] = {12.7062, 4.3027, 3.1824, 2.7764, 2.5706, 2.4469, 2.3646, 2.3060, 2.2622};
+  if (freedom <= 9) return table[freedom - 1];
   const double z = 1.959964, n = freedom, z2 = z * z;
   return z * (1.0 + (z2 + 1.0) / (4.0 * n) + ((5.0 * z2 + 16.0) * z2 + 3.0) / (96.0 * n * n) +
               (((3.0 * z2 + 19.0) * z2 + 17.0) * z2 - 15.0) / (384.0 * n * n * n));

@@ -28,7 +28,7 @@ struct LeastSquares {
 LeastSquares least_squares(const std::function<void(const Eigen::VectorXd&, Eigen::VectorXd&)>& residuals, int count,
                            const Eigen::VectorXd& start);
 
-/// Two-sided 95 % quantile of Student's t (Cornish-Fisher series, Abramowitz & Stegun 26.7.5; exact for 1 and 2).
+/// Two-sided 95 % quantile of Student's t (Cornish-Fisher series, Abramowitz & Stegun 26.7.5; tabulated up to 9).
 double student_95(int freedom);
 
 }  // namespace puffin::micromodels::derivation
