@@ -40,13 +40,14 @@ int run_command(const RunOptions& options) {
   _mm_setcsr(_mm_getcsr() | 0x8040);  // flush denormals: air at rest would otherwise compute with them
   set_up_log(options.quiet);
   cases::Case c = cases::read_case(options.case_file, options.sets, options.preset);
-  c.stop.time = std::min(c.stop.time, options.until);
   const int wanted = options.threads > 0 ? options.threads : c.numerics.threads;
   const int threads = wanted > 0 ? wanted : static_cast<int>(std::thread::hardware_concurrency());
   const oneapi::tbb::global_control control(oneapi::tbb::global_control::max_allowed_parallelism,
                                             static_cast<std::size_t>(threads));
   const auto simulation = cases::build(c, read_stored_field);
   cases::Simulation& s = *simulation;
+  // Only now: the reference speed, and with it the time step, belong to the whole run that the case describes.
+  c.stop.time = s.description.stop.time = std::min(c.stop.time, options.until);
   PointReader(s).check_places(s);
   const auto out = options.out.empty() ? std::nullopt : std::optional(options.out);
   const output::OutputFolder folder(out, c.name, options.resume);
