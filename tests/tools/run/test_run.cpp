@@ -77,6 +77,14 @@ TEST_F(Run, ARetreatWithASmallerStepSavesARun) {
   for (const double error : saved.numbers("ledger_error")) EXPECT_LT(std::abs(error), 1e-10);
 }
 
+TEST_F(Run, UntilStopsEarlierAndChangesNothingElse) {
+  ASSERT_EQ(run("short", "--until 0.05ms"), 0) << text("short.log");
+  ASSERT_EQ(run("long", "--until 0.2ms"), 0) << text("long.log");
+  // The reference speed, and so the step, is that of the whole case.
+  EXPECT_EQ(output::read_csv(folder_ / "short" / "history.csv").numbers("dt").front(),
+            output::read_csv(folder_ / "long" / "history.csv").numbers("dt").front());
+}
+
 TEST_F(Run, AFinishedRunIsNotOverwritten) {
   ASSERT_EQ(run("once", "--until 0.2ms"), 0) << text("once.log");
   EXPECT_EQ(run("once", "--until 0.2ms"), 7);
