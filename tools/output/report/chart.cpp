@@ -7,43 +7,15 @@
 
 #include "tools/output/picture/decorations.hpp"
 #include "tools/output/report/html.hpp"
+#include "tools/output/report/svg.hpp"
 
 namespace puffin::output {
+
+using namespace svg;
+
 namespace {
 
 constexpr double full_width = 760, height = 330, left = 78, right = 22, top = 46, bottom = 54;
-constexpr char text_colour[] = "#21262d", soft_colour[] = "#5f6873", grid_colour[] = "#e3e6ea";
-
-std::string hex(const Colour& c) {
-  char text[16];
-  std::snprintf(text, sizeof text, "#%02x%02x%02x", static_cast<int>(std::lround(255 * c.r)),
-                static_cast<int>(std::lround(255 * c.g)), static_cast<int>(std::lround(255 * c.b)));
-  return text;
-}
-
-std::string coordinate(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f", value);
-  return text;
-}
-
-std::string text_at(double x, double y, const std::string& text, const std::string& anchor,
-                    const std::string& colour = text_colour, const std::string& more = {}) {
-  return "<text x=\"" + coordinate(x) + "\" y=\"" + coordinate(y) + "\" text-anchor=\"" + anchor + "\" fill=\"" +
-         colour + "\"" + more + ">" + text + "</text>";
-}
-
-std::string line_at(double x0, double y0, double x1, double y1, const std::string& colour,
-                    const std::string& more = {}) {
-  return "<line x1=\"" + coordinate(x0) + "\" y1=\"" + coordinate(y0) + "\" x2=\"" + coordinate(x1) + "\" y2=\"" +
-         coordinate(y1) + "\" stroke=\"" + colour + "\"" + more + "/>";
-}
-
-std::string open_svg(double w, double h) {
-  return "<svg viewBox=\"0 0 " + coordinate(w) + " " + coordinate(h) +
-         "\" role=\"img\" font-family=\"system-ui, 'DejaVu Sans', sans-serif\" font-size=\"13\">\n";
-}
-
 /// One axis: from a round number to a round number.
 struct Axis {
   double low = 0.0, high = 1.0, step = 1.0;
@@ -77,18 +49,6 @@ std::vector<std::size_t> thinned(const Curve& curve) {
   return kept;
 }
 
-/// Colour swatches with names in one row.
-std::string legend(const std::vector<std::string>& names, double x, double y) {
-  std::string out;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    out += "<rect x=\"" + coordinate(x) + "\" y=\"" + coordinate(y - 10) +
-           "\" width=\"14\" height=\"12\" rx=\"2\" fill=\"" + hex(distinct(static_cast<int>(i))) + "\"/>" +
-           text_at(x + 20, y, escaped(names[i]), "start");
-    x += 40 + 7.6 * static_cast<double>(names[i].size());
-  }
-  return out;
-}
-
 }  // namespace
 
 std::string line_chart(const LineChart& chart) {
@@ -108,7 +68,7 @@ std::string line_chart(const LineChart& chart) {
   const auto px = [&](double v) { return left + (width - left - right) * (v - x.low) / (x.high - x.low); };
   const auto py = [&](double v) { return height - bottom - (height - top - bottom) * (v - y.low) / (y.high - y.low); };
 
-  std::string svg = open_svg(width, height);
+  std::string svg = open(width, height);
   for (const double tick : y.ticks()) {
     svg += line_at(left, py(tick), width - right, py(tick), grid_colour);
     svg += text_at(left - 8, py(tick) + 4.5, short_number(tick), "end", soft_colour);
@@ -160,7 +120,7 @@ std::string bar_chart(const BarChart& chart) {
   const double first = named ? 38 : 8, total = first + rows + 46;
   const Axis axis(0.0, largest > 0 ? largest : 1.0);
   const auto px = [&](double v) { return label + (width - label - end) * v / axis.high; };
-  std::string svg = open_svg(width, total);
+  std::string svg = open(width, total);
   for (const double tick : axis.ticks()) {
     svg += line_at(px(tick), first, px(tick), first + rows, grid_colour);
     svg += text_at(px(tick), first + rows + 17, short_number(tick), "middle", soft_colour);
