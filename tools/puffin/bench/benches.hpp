@@ -1,0 +1,35 @@
+#pragma once
+// The benchmarks of `puffin bench`: each makes rows with named columns. To add one: its function here, its file beside
+// this one, its line in benches().
+
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace puffin::tools {
+
+struct BenchArguments {
+  std::string name;
+  bool quick = false, json = false;
+  std::vector<double> cells;      // kernel: numbers of cells instead of the usual ones
+  std::vector<std::string> only;  // pareto: cases
+  std::string out;                // folder for tables and figures; empty: none
+};
+
+struct Bench {
+  const char* name;
+  const char* what;
+  /// The rows; while it works it prints a line a row unless a.json, and puts further files into a.out.
+  nlohmann::json (*rows)(const BenchArguments& a);
+};
+std::span<const Bench> benches();
+
+nlohmann::json bench_kernel(const BenchArguments& a);
+
+/// Writes rows as CSV: a header of the keys of the first row in alphabetical order; strings hold no commas.
+/// Throws std::runtime_error if it cannot be written.
+void write_rows(const nlohmann::json& rows, const std::string& file);
+
+}  // namespace puffin::tools
