@@ -36,6 +36,7 @@ struct DeriveArguments {
   std::vector<double> speeds, angles{90.0}, slips{20.0, 40.0, 60.0, 80.0};
   std::vector<std::string> targets{"wall", "carrier"};
   std::filesystem::path out;
+  std::string law = "power";
   bool full = false, as_json = false;
 };
 
@@ -126,7 +127,7 @@ Mechanism derive(const DeriveArguments& a, Partner target) {
 }
 
 std::string constants_text(const PowerFit& fit) {
-  std::string out;
+  std::string out = "Power law in two branches, fitted to the points head on:\n";
   for (std::size_t k = 0; k < 5; ++k) {
     char line[120];
     std::snprintf(line, sizeof line, "A%zu = %.6g (95 %%: %.4g to %.4g)\n", k, fit.A[k].value, fit.A[k].low,
@@ -166,6 +167,35 @@ void write_table(const std::filesystem::path& file, const Mechanism& m) {
     csv.append({p.speed, p.angle, p.detached, p.detached_error, p.attached, p.attached_error, p.rolled, p.redeposited,
                 static_cast<double>(p.impacts), p.rebound, p.deepest, p.peak});
   csv.flush();
+}
+
+/// The points themselves as a law, with every angle; beside the micro-model file as a table of its own.
+micromodels::TableLaw tabulate(const DeriveArguments& a, const Mechanism& m, const std::string& mechanism,
+                               double DerivedPoint::*value, double DerivedPoint::*error, micromodels::Validity valid,
+                               std::map<std::string, std::string>& files) {
+  std::vector<double> angles = a.angles, speeds;
+  std::sort(angles.begin(), angles.end());
+  std::vector<DerivedPoint> points;
+  for (const DerivedPoint& p : m.points)
+    if (sound(p, m.scene)) points.push_back(p);
+  std::sort(points.begin(), points.end(),
+            [](const auto& x, const auto& y) { return x.speed != y.speed ? x.speed < y.speed : x.angle < y.angle; });
+  for (std::size_t k = 0; k + angles.size() <= points.size(); k += angles.size()) {
+    if (points[k + angles.size() - 1].speed != points[k].speed) break;  // not sound at every angle: ends here
+    speeds.push_back(points[k].speed);
+  }
+  points.resize(speeds.size() * angles.size());
+  auto file = a.out;
+  file.replace_filename(a.out.stem().string() + "-" + mechanism + ".csv");
+  files[mechanism] = file.filename().string();
+  output::CsvFile csv(file, {"speed", "angle", "fraction", "error"});
+  std::vector<double> values;
+  for (const DerivedPoint& p : points) {
+    csv.append({p.speed, p.angle, p.*value, p.*error});
+    values.push_back(p.*value);
+  }
+  csv.flush();
+  return micromodels::TableLaw(speeds, angles, values, true, valid);
 }
 
 std::string drag_comment(const DeriveArguments& a, const Scene& s, json& rows) {
@@ -219,6 +249,9 @@ int derive_set(const DeriveArguments& a) {
   models.label = micromodels::Label::derived;
   models.source = "resolved impacts of one coated carrier (docs/micromodels.md)";
   std::map<std::string, std::string> comments;
+  std::map<std::string, std::string> files;
+  const bool tables = a.law == "table";
+  if (tables && a.out.empty()) throw std::invalid_argument("--law table needs --out: tables stand beside the file");
   std::vector<output::Curve> data;
   json j;
   std::optional<Scene> scene;
@@ -233,6 +266,14 @@ int derive_set(const DeriveArguments& a) {
     if (wall) {
       models.wall_attach = micromodels::PowerLaw(m.attach.law().constants(), valid);
       comments["wall_attach"] = comment_of(a, m, m.attach, false);
+    }
+    if (tables) {
+      const std::string key = wall ? "wall_detach" : "particle_detach";
+      (wall ? models.wall_detach : models.particle_detach) =
+          tabulate(a, m, key, &DerivedPoint::detached, &DerivedPoint::detached_error, valid, files);
+      if (wall)
+        models.wall_attach =
+            tabulate(a, m, "wall_attach", &DerivedPoint::attached, &DerivedPoint::attached_error, valid, files);
     }
     if (!a.out.empty()) {
       auto table = a.out;
@@ -257,7 +298,7 @@ int derive_set(const DeriveArguments& a) {
                 a.yield.c_str(), a.wall_modulus.c_str(), a.wall_poisson, a.wall_yield.c_str(), a.restitution,
                 a.friction, a.spread, static_cast<unsigned long long>(a.seed));
   comments[""] = head;
-  const std::string text = cases::write_micromodels(models, comments);
+  const std::string text = cases::write_micromodels(models, comments, files);
   if (!a.out.empty()) {
     output::write_whole(a.out, text);
     auto curves = law_curves(models, plot_range(models));
@@ -304,6 +345,8 @@ Action micromodel_derive(CLI::App& app) {
   app.add_option("--friction", a->friction);
   app.add_option("--seed", a->seed);
   app.add_option("--threads", a->threads);
+  app.add_option("--law", a->law, "power (fitted) or table: the points themselves, with every angle")
+      ->check(CLI::IsMember({"power", "table"}));
   app.add_flag("--full", a->full, "resolve every fine: slow, for small coats");
   app.add_option("--out", a->out, "the micro-model file; a plot and tables are put beside it")->type_name("FILE.toml");
   app.add_flag("--json", a->as_json, "one JSON object on stdout");
