@@ -229,7 +229,8 @@ std::vector<TogetherCase> read_together(const std::filesystem::path& file) {
   std::vector<TogetherCase> list;
   for (const auto& item : json) {
     TogetherCase one{item.value("case", ""), item.value("out", ""), {}};
-    for (const auto& set : item.value("set", nlohmann::json::array())) one.sets.push_back(cases::parse_override(set));
+    for (const auto& set : item.value("set", nlohmann::json::array()))
+      one.sets.push_back(cases::parse_override(set.get<std::string>()));
     list.push_back(one);
   }
   return list;
