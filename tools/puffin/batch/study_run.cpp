@@ -197,8 +197,9 @@ class Batch {
     const std::size_t n = waiting_.front();
     int used = 0;
     for (const Running& r : running_) used += book_.record(r.job).threads;
-    const int threads =
-        threads_for_next(cores_ - used, places_ - static_cast<int>(running_.size()), static_cast<int>(waiting_.size()));
+    int waiting = 0;  // processes; a group is one
+    for (const std::size_t m : waiting_) waiting += group_of(m).front() == m;
+    const int threads = threads_for_next(cores_ - used, places_ - static_cast<int>(running_.size()), waiting);
     const std::vector<std::size_t> group = group_of(n);
     const std::vector<std::string> arguments = arguments_of(n, threads);
     for (const std::size_t m : group) {
