@@ -77,11 +77,12 @@ std::string page_of(const Json& status) {
   return html;
 }
 
-/// The base's given values stand for a case that is the same device with the same drug: another grid or output leaves
-/// them, any other change keeps only what it gives itself.
+/// The base's given values stand for a case that is the same device with the same drug: another grid, output or
+/// set of micro-models leaves them, any other change keeps only what it gives itself.
 Json reference_of(const cases::StudyCase& c) {
   const bool same = std::all_of(c.sets.begin(), c.sets.end(), [](const cases::Override& o) {
-    return o.key.starts_with("numerics.") || o.key.starts_with("output.") || o.key.starts_with("reference.");
+    return o.key.starts_with("numerics.") || o.key.starts_with("output.") || o.key.starts_with("reference.") ||
+           o.key == "fines.micromodels";  // other laws of the same drug
   });
   Json reference = Json::object();
   const auto given_here = [&](const std::string& name) {
