@@ -95,7 +95,7 @@ TEST(Step, NumbersBelowTheNormalRangeFadeToZero) {
     auto& f = std::get<Populations<float>>(air.populations).f;
     std::fill(f.begin(), f.end(), 1e-40F);
     collide_and_stream({0.51, 1.0, 0.51}, at_rest(air), air);
-    const Run& run = air.rows.runs().front();
+    const lbm::Run& run = air.rows.runs().front();
     for (int i = 0; i < d3q19::q; ++i)
       EXPECT_EQ(std::get<Populations<float>>(air.populations).departed(run, run.first, i, Parity::even), 0.0F) << i;
     volatile float tiny = 1e-40F;
