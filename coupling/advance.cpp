@@ -138,15 +138,10 @@ void step_air(const Models& models, int steps, double rescale, State& s) {
     } else if (n == 0) {
       for (auto& f : air.run_flags) f = static_cast<std::uint8_t>(f & ~lbm::run_moments);
     }
-    lbm::KernelReport report;
-    {
+    const lbm::KernelReport report = [&] {
       const Stopwatch watch(s.effort.air);
-      report = lbm::collide_and_stream(constants, s.drive, air);
-    }
-    {
-      const Stopwatch watch(s.effort.links);
-      lbm::apply_links(s.drive, air);
-    }
+      return lbm::advance_air(constants, s.drive, air);
+    }();
     if (report.bad) report_bad_cell(air, s.scale, s.time);
     s.extremes.max_speed_lu = std::max(s.extremes.max_speed_lu, std::sqrt(report.max_speed2));
     s.extremes.min_tau = std::min(s.extremes.min_tau, tau);

@@ -70,6 +70,75 @@ template <class V, class T>
   }
 }
 
+/// Values at scattered places, and back.
+template <class T>
+[[gnu::always_inline]] inline Pack<T> gather(const T* base, const std::int32_t* at) {
+#ifdef __AVX512F__
+  if constexpr (std::is_same_v<T, float>)
+    return Pack<T>(_mm512_i32gather_ps(_mm512_loadu_si512(at), base, sizeof(T)));
+  else
+    return Pack<T>(_mm512_i32gather_pd(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(at)), base, sizeof(T)));
+#else
+  return Pack<T>([ base, at ](auto l) __attribute__((always_inline)) { return base[at[l]]; });
+#endif
+}
+template <class T>
+[[gnu::always_inline]] inline void scatter(const Pack<T>& v, T* base, const std::int32_t* at) {
+#ifdef __AVX512F__
+  if constexpr (std::is_same_v<T, float>)
+    _mm512_i32scatter_ps(base, _mm512_loadu_si512(at), static_cast<__m512>(v), sizeof(T));
+  else
+    _mm512_i32scatter_pd(base, _mm256_loadu_si256(reinterpret_cast<const __m256i*>(at)), static_cast<__m512d>(v),
+                         sizeof(T));
+#else
+  for (std::size_t l = 0; l < Pack<T>::size(); ++l) base[at[l]] = v[l];
+#endif
+}
+
+/// Reflection for the cells of a group.
+template <class T>
+void reflect_group(const WallInput<T>& in, const WallGroup& group) {
+  using P = Pack<T>;
+  struct Link {
+    const T *out, *partner;
+    T* back;
+    const std::int32_t *out_at, *partner_at, *back_at;
+    P share;
+  };
+  Link link[18];
+  const int count = group.count;
+  const bool even = in.parity == Parity::even;
+  const std::int32_t* const slot = in.places + group.place;
+  int links = 0;
+  T sum = 0;
+  for (std::uint32_t bits = group.directions; bits != 0; bits &= bits - 1, ++links) {
+    const int i = __builtin_ctz(bits), o = d3q19::opposite(i);
+    T* const f_i = in.f + i * in.stride;
+    T* const f_o = in.f + o * in.stride;
+    const std::int32_t *const beyond = slot + (1 + 2 * links) * count, *const behind = beyond + count;
+    // Places as in find_links.
+    const bool own = ((group.far >> i & 1U) != 0) == even;
+    const T part = T(i < 7 ? 2 : 1);
+    link[links] = {even ? f_o : f_i,    own ? f_i : f_o,      even ? f_i : f_o, even ? slot : beyond,
+                   own ? slot : behind, even ? beyond : slot, P(part)};
+    sum += part;
+  }
+  const P each(T(1) / sum), speed(static_cast<T>(in.wall_speed));
+  for (int n = 0; n < count; n += static_cast<int>(P::size())) {
+    P incoming[18], imbalance(T(0));
+    const float* partner = in.group_partner + group.coefficient + n;
+    for (int k = 0; k < links; ++k) {
+      const P out = gather(link[k].out, link[k].out_at + n);
+      P change = load_float<T>(partner + k * count) * (gather(link[k].partner, link[k].partner_at + n) - out);
+      if (group.moving) change = change + speed * load_float<T>(in.group_moving + group.coefficient + n + k * count);
+      incoming[k] = out + change;
+      imbalance = imbalance - change;
+    }
+    imbalance = imbalance * each;
+    for (int k = 0; k < links; ++k) scatter(incoming[k] + link[k].share * imbalance, link[k].back, link[k].back_at + n);
+  }
+}
+
 template <class T>
 void walls(const WallInput<T>& in) {
   using P = Pack<T>;
@@ -86,4 +155,5 @@ void walls(const WallInput<T>& in) {
     // The last pack overlaps the one before it: what it reads has not been written, so the result is the same.
     for (int n = 0; n < wall.count; n += width) reflect<P>(links, wall.moving, speed, std::min(n, wall.count - width));
   }
+  for (std::size_t g = in.first_group; g < in.last_group; ++g) reflect_group(in, in.groups[g]);
 }

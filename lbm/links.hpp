@@ -12,6 +12,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -53,14 +54,15 @@ struct SlipLink {
   std::int16_t patch = 0;
 };
 
+struct LinkSchedule;
+
 struct Links {
-  std::vector<WallRun> walls;                // in the order of the rows
-  std::vector<std::size_t> wall_chunks;      // boundaries of the parts given to threads
-  std::vector<float> partner;                // weight of f_own (far) or f_out(x-c); that of f_out is 1 - partner
-  std::vector<float> moving;                 // population gained for a unit wall speed; empty when no wall moves
-  std::vector<std::int16_t> wall_patch;      // per coefficient
-  std::vector<OpeningLink> inlets, outlets;  // sorted by slot
-  std::vector<std::size_t> outlet_chunks;    // boundaries of the parts given to threads; no cell is divided
+  std::vector<WallRun> walls;                    // in the order of the rows
+  std::vector<float> partner;                    // weight of f_own (far) or f_out(x-c); that of f_out is 1 - partner
+  std::vector<float> moving;                     // population gained for a unit wall speed; empty when no wall moves
+  std::vector<std::int16_t> wall_patch;          // per coefficient
+  std::vector<OpeningLink> inlets, outlets;      // sorted by slot
+  std::shared_ptr<const LinkSchedule> schedule;  // when walls, inlets and outlets are applied
   /// Links between two active cells with a wall between them (thinner than a cell); never in `walls`.
   struct ThinLink {
     std::ptrdiff_t slot = 0;
