@@ -27,6 +27,7 @@ struct Assessment {
   std::int64_t cells_fluid = 0;
   double volume_voxels = 0.0;  // [m^3]
   double narrowest_gap = 0.0;  // [m], infinity if no walls face each other; 0: not measured
+  std::size_t thin_walls = 0;  // pairs of fluid cells with a wall between them
   double memory = 0.0;         // [byte], an estimate
   std::vector<std::string> warnings;
 };
