@@ -20,6 +20,7 @@
 #include "lbm/geometry/stl.hpp"
 #include "lbm/geometry/surface_check.hpp"
 #include "lbm/geometry/voxelize.hpp"
+#include "tools/bench/machine.hpp"
 #include "tools/bench/vtk_distance.hpp"
 
 namespace puffin::bench {
@@ -175,21 +176,23 @@ class Measurement {
     });
   }
 
-  void finish(GeometryRow row, const std::string& what, long long count) const {
+  void finish(GeometryRow row, const std::string& what, long long count) {
     row.what = what;
     row.count = count;
     row.per_second = static_cast<double>(count) / row.seconds;
     if (row.vtk_per_second > 0.0) row.ratio = row.per_second / row.vtk_per_second;
     row.memory = peak_memory();
+    row.foreign_load = foreign_.share();
+    foreign_ = ForeignLoad();
     done_(row);
   }
-  void report(const std::string& what, long long count, double seconds) const {
+  void report(const std::string& what, long long count, double seconds) {
     GeometryRow row = row_;
     row.seconds = seconds;
     finish(row, what, count);
   }
   template <class Work>
-  void timed(const std::string& what, long long count, Work&& work) const {
+  void timed(const std::string& what, long long count, Work&& work) {
     report(what, count, seconds_of(work));
   }
 
@@ -199,6 +202,7 @@ class Measurement {
   std::filesystem::path file_;
   std::shared_ptr<const geometry::TriangleTree> tree_;
   GeometryRow row_;
+  ForeignLoad foreign_;
 };
 
 }  // namespace

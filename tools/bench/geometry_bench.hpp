@@ -17,9 +17,10 @@ struct GeometryRow {
   double per_second = 0.0;      // count / seconds
   double vtk_per_second = 0.0;  // vtkImplicitPolyDataDistance, one thread (it has no more); 0: not compared
   double ratio = 0.0;
-  double difference = 0.0;   // largest |ours - VTK's| over the edge of a cell, on the points that both were asked
-  long long other_side = 0;  // points where the signs differ farther than 1e-6 of a cell from the surface
-  double memory = 0.0;       // [byte] peak of the process after this row
+  double difference = 0.0;    // largest |ours - VTK's| over the edge of a cell, on the points that both were asked
+  long long other_side = 0;   // points where the signs differ farther than 1e-6 of a cell from the surface
+  double foreign_load = 0.0;  // share of the cores that other processes used meanwhile
+  double memory = 0.0;        // [byte] peak of the process after this row
 };
 
 /// A wavy torus of a million triangles (quick: a hundred thousand), ten million cells (one): written as binary STL,
