@@ -7,6 +7,7 @@
 
 #include "cases/inlet_profile.hpp"
 #include "cases/units.hpp"
+#include "cases/untagged_openings.hpp"
 #include "lbm/geometry/voxel_report.hpp"
 
 namespace puffin::cases {
@@ -84,6 +85,7 @@ std::array<bool, 3> periodic_directions(const Case& c, const Surface& s) {
 }
 
 Assessment assess(const Case& given, const Surface& s) {
+  refuse_untagged_openings(given, s.patches);
   Case c = given;
   complete_file_profiles(s, c);
   Assessment a;

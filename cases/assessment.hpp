@@ -32,7 +32,8 @@ struct Assessment {
   std::vector<std::string> warnings;
 };
 
-/// Voxelises the surface (with a lattice) and measures. Throws as the geometry functions do: nothing inside, a periodic
+/// Voxelises the surface (with a lattice) and measures. Throws as the geometry functions do: an opening that no
+/// boundary tags, nothing inside, faces inside the fluid, a periodic
 /// box that is no whole number of cells, more than four thousand million cells (all as GeometryError).
 Assessment assess(const Case& c, const Surface& surface);
 

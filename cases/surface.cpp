@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "cases/generators/generators.hpp"
-#include "cases/untagged_openings.hpp"
 #include "lbm/geometry/stl.hpp"
 
 namespace puffin::cases {
@@ -78,7 +77,6 @@ Surface load_surface(const Case& c, bool self_intersections) {
   s.defects = geometry::check_surface(s.mesh, self_intersections);
   refuse_fatal(s.defects);
   s.patches = geometry::assign_patches(s.mesh, selections_of(c, s.mesh));
-  refuse_untagged_openings(c, s.patches);
   s.volume = geometry::enclosed_volume(s.mesh);
   s.area = geometry::surface_area(s.mesh);
   return s;

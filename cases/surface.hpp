@@ -30,7 +30,7 @@ struct Surface {
 inline const std::vector<std::string> box_faces{"x-min", "x-max", "y-min", "y-max", "z-min", "z-max"};
 
 /// Generates or reads the surface, checks it, names its patches. Throws lbm::geometry::StlError or GeometryError (all
-/// fatal defects, or every untagged opening, in one message), GeneratorError for parameters that do not fit together.
+/// fatal defects in one message), GeneratorError for parameters that do not fit together.
 Surface load_surface(const Case& c, bool self_intersections = false);
 
 /// Patches through which air passes: inlets, outlets, periodic faces (with their partners).
