@@ -3,6 +3,8 @@
 
 #include <limits>
 #include <memory>
+#include <span>
+#include <vector>
 
 #include "lbm/geometry/triangle_tree.hpp"
 
@@ -24,10 +26,17 @@ class SignedDistance {
   /// Signed distance within `limit` [m]; +limit or -limit by the winding number if the surface is farther.
   double operator()(const Vec3& p, double limit = std::numeric_limits<double>::infinity()) const;
 
+  /// The same for many points at once, in parallel: several times faster than one by one, with equal answers. Points
+  /// are visited along a Morton curve, so that the nearest point of one bounds the search of the next and what it
+  /// touches is still in the cache.
+  std::vector<double> at(std::span<const Vec3> points, double limit = std::numeric_limits<double>::infinity()) const;
+
   /// Do normals decide the side?
   bool simple() const { return simple_; }
 
  private:
+  double sign(const Vec3& p, const Closest& nearest) const;
+
   std::shared_ptr<const TriangleTree> tree_;
   bool simple_ = false;
 };

@@ -133,7 +133,7 @@ class Measurement {
         row.threads = threads;
         row.vtk_per_second = static_cast<double>(compared_) / vtk_seconds;
         const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, threads);
-        row.seconds = seconds_of([&] { for_all(points, [&](std::size_t n) { ours[n] = (*distance)(points[n]); }); });
+        row.seconds = seconds_of([&] { ours = distance->at(points); });
         for (std::size_t n = 0; n < compared_; ++n) {
           const bool same_side = (ours[n] > 0.0) == (theirs[n] > 0.0);
           row.difference = std::max(row.difference, std::abs(std::abs(ours[n]) - std::abs(theirs[n])) / dx_);
@@ -157,18 +157,31 @@ class Measurement {
       const auto hit = tree_->first_hit(points[n], dx_ * Vec3(n % 3 - 1.0, n / 3 % 3 - 1.0, 1.0), 1.0);
       answer[n] = hit ? hit->t : -1.0;
     });
-    // A carrier of 35 um radius that reaches 2 um beyond it, at rest on the wall or near it.
-    std::vector<std::size_t> touches(points.size());
-    each("contact", [&](std::size_t n) {
-      thread_local std::vector<geometry::Feature> features;
-      features.clear();
-      tree_->near_features(points[n], 37e-6, nullptr, features, geometry::Side::inner);
-      touches[n] = features.size();
-    });
+    contacts(*tree_);
+    contacts(geometry::TriangleTree(wavy_torus(100, 50)));  // as fine as a device is exported
     row_.where.clear();
   }
 
  private:
+  /// Carriers of 35 um radius that look 2 um beyond it for walls, at most that far from them, at random places.
+  void contacts(const geometry::TriangleTree& tree) {
+    constexpr double reach = 37e-6;
+    const std::vector<Vec3> points = random_points(tree, queries_, reach);
+    std::vector<std::size_t> touches(points.size());
+    const double seconds = seconds_of([&] {
+      for_all(points, [&](std::size_t n) {
+        thread_local std::vector<geometry::Feature> features;
+        features.clear();
+        tree.near_features(points[n], reach, nullptr, features, geometry::Side::inner);
+        touches[n] = features.size();
+      });
+    });
+    GeometryRow row = row_;
+    row.triangles = static_cast<long long>(tree.mesh().triangles.size());
+    row.seconds = seconds;
+    finish(row, "contact", static_cast<long long>(points.size()));
+  }
+
   template <class Ask>
   static void for_all(const std::vector<Vec3>& points, Ask&& ask) {
     oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, points.size(), 1024), [&](const auto& r) {

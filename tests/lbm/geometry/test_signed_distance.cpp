@@ -86,6 +86,19 @@ TEST(SignedDistance, BeyondItsLimitIsTheLimitWithTheSignOfTheSide) {
   EXPECT_EQ(distance({2.0, 0.5, 0.5}, 0.2), -0.2);
 }
 
+TEST(SignedDistance, OfManyPointsAtOnceIsThatOfEachToTheLastBit) {
+  const SignedDistance distance = distance_to(shapes::torus(1.0, 0.4, 40, 20));
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> unit(-2.0, 2.0);
+  std::vector<Vec3> points;
+  for (int n = 0; n < 6000; ++n) points.emplace_back(unit(random), unit(random), unit(random));
+  for (const double limit : {std::numeric_limits<double>::infinity(), 0.3}) {
+    const std::vector<double> all = distance.at(points, limit);
+    for (std::size_t n = 0; n < points.size(); ++n) ASSERT_EQ(all[n], distance(points[n], limit)) << n;
+  }
+  EXPECT_TRUE(distance.at({}).empty());
+}
+
 TEST(SignedDistance, WithoutATreeIsRefused) { EXPECT_THROW(SignedDistance(nullptr), std::invalid_argument); }
 
 }  // namespace
