@@ -7,6 +7,7 @@
 
 #include "cases/inlet_profile.hpp"
 #include "cases/units.hpp"
+#include "cases/untagged_openings.hpp"
 #include "lbm/geometry/voxel_report.hpp"
 
 namespace puffin::cases {
@@ -58,6 +59,9 @@ void warn(const Case& c, Assessment& a) {
   const double gap_cells = a.narrowest_gap / n.dx;
   if (a.narrowest_gap > 0.0 && gap_cells < 4.0)
     say("the narrowest gap, " + format_quantity(a.narrowest_gap, unit::length) + ", has fewer than 4 cells");
+  if (a.thin_walls > 0)
+    say(std::to_string(a.thin_walls) +
+        " links between cells cross a wall thinner than a cell; the flow is stopped there half-way: lower dx");
   if (std::abs(a.volume_voxels / a.volume - 1.0) > 0.05) say("the voxels miss the volume by more than 5 %: lower dx");
   if (c.carriers && c.carriers->diameter * std::cbrt(c.carriers->parcel) > 1.5 * n.dx)
     say("the parcels are larger than the cells: the air they disturb is not the air they should feel");
@@ -81,6 +85,7 @@ std::array<bool, 3> periodic_directions(const Case& c, const Surface& s) {
 }
 
 Assessment assess(const Case& given, const Surface& s) {
+  refuse_untagged_openings(given, s.patches);
   Case c = given;
   complete_file_profiles(s, c);
   Assessment a;
@@ -106,6 +111,8 @@ Assessment assess(const Case& given, const Surface& s) {
     try {
       const geometry::Voxels voxels = geometry::voxelize(tree, a.lattice->dx, options, &dropped);
       const geometry::VoxelReport report = geometry::voxel_report(tree, voxels, s.patches, openings, dropped);
+      geometry::refuse_buried(report.hidden);
+      a.thin_walls = report.hidden.thin;
       a.cells_fluid = static_cast<std::int64_t>(report.cells_fluid);
       a.volume_voxels = report.volume_voxels;
       a.narrowest_gap = report.narrowest_gap;

@@ -20,6 +20,7 @@ using nlohmann::json;
 
 std::span<const Bench> benches() {
   static constexpr std::array list{
+      Bench{"geometry", "STL to cells, distances beside VTK's", &bench_geometry},
       Bench{"kernel", "the air alone, beside the memory's bound", &bench_kernel},
   };
   return list;

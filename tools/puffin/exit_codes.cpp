@@ -24,6 +24,7 @@ bool is(const std::exception& error) {
 ExitCode exit_code(const std::exception& error) {
   if (is<UsageError>(error)) return usage;
   if (is<cases::CaseError>(error)) return case_invalid;
+  if (is<lbm::geometry::StlFileError>(error)) return input_output;
   if (is<lbm::geometry::GeometryError>(error) || is<lbm::geometry::StlError>(error)) return geometry_invalid;
   if (is<cases::GeneratorError>(error)) return geometry_invalid;
   if (is<coupling::Diverged>(error)) return diverged;

@@ -26,6 +26,7 @@ struct Bench {
 };
 std::span<const Bench> benches();
 
+nlohmann::json bench_geometry(const BenchArguments& a);
 nlohmann::json bench_kernel(const BenchArguments& a);
 
 /// Writes rows as CSV: a header of the keys of the first row in alphabetical order; strings hold no commas.
