@@ -37,6 +37,7 @@ void fields(CollisionSummary& c, const Field& field) {
   field("median_per_carrier", c.median_per_carrier);
   field("median_per_emitted_carrier", c.median_per_emitted_carrier);
   field("mean_wall_energy", c.mean_wall_energy), field("mean_particle_energy", c.mean_particle_energy);
+  field("largest_overlap", c.largest_overlap);
 }
 
 template <class Field>

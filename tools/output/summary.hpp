@@ -48,6 +48,7 @@ struct CollisionSummary {
   double wall = 0.0, particle = 0.0;
   std::optional<double> median_per_carrier, median_per_emitted_carrier;
   std::optional<double> mean_wall_energy, mean_particle_energy;  // [J]
+  std::optional<double> largest_overlap;                         // of any contact, part of the (smaller) diameter
 };
 
 struct SkippedWork {
