@@ -18,6 +18,7 @@ void fields(CarrierSummary& c, const Field& field) {
   field("retained_fraction", c.retained_fraction);
   field("first_motion", c.first_motion), field("first_emitted", c.first_emitted);
   field("last_emitted", c.last_emitted), field("RDF", c.RDF);
+  field("momentum_error", c.momentum_error);
 }
 
 template <class Field>

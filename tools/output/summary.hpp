@@ -29,6 +29,7 @@ struct CarrierSummary {
   double retained_fraction = 0.0;
   std::optional<double> first_motion, first_emitted, last_emitted;  // [s]
   std::optional<double> RDF;                                        // retained mass over the dose
+  std::optional<double> momentum_error;  // impulse given less impulse taken by the air, over the impulse exchanged
 };
 
 struct MechanismShares {

@@ -78,6 +78,8 @@ output::CarrierSummary carriers(const cases::Simulation& s) {
   c.count = c.emitted + c.retained;
   if (c.count > 0) c.retained_fraction = static_cast<double>(c.retained) / static_cast<double>(c.count);
   c.first_motion = s.state.first_motion.time();
+  const coupling::MomentumBooking& books = s.state.momentum;
+  if (books.exchanged > 0.0) c.momentum_error = (books.given - books.taken).norm() / books.exchanged;
   if (s.description.fines && s.dose_mass > 0.0) {
     // Mass still in the device: carriers, what is left on them, and what sticks to walls. A carrier's mass in the
     // dynamics is that of the loaded carrier; here the fines it lost are taken off.
