@@ -10,8 +10,10 @@
 #include <cmath>
 #include <cstdio>
 
+#include "coupling/averaged.hpp"
 #include "coupling/drag_limit.hpp"
 #include "coupling/field_forces.hpp"
+#include "coupling/self_disturbance.hpp"
 #include "coupling/state.hpp"
 #include "coupling/volume_fraction.hpp"
 #include "dem/advance.hpp"
@@ -115,6 +117,7 @@ void give_reaction(double interval, State& s) {
   } else {
     s.spread_on = Stencils();
   }
+  if (!s.pores.cells.empty()) share_force(s);
   flag_runs(s.touched, lbm::run_forced, *s.air);
 }
 
@@ -140,7 +143,12 @@ void step_air(const Models& models, int steps, double rescale, State& s) {
     }
     const lbm::KernelReport report = [&] {
       const Stopwatch watch(s.effort.air);
-      return lbm::advance_air(constants, s.drive, air);
+      if (s.pores.cells.empty()) return lbm::advance_air(constants, s.drive, air);
+      const lbm::KernelReport collided = lbm::collide_and_stream(constants, s.drive, air);
+      lbm::measure_exchange(air, s.pores);
+      lbm::apply_links(s.drive, air);
+      lbm::apply_exchange(air, s.pores);
+      return collided;
     }();
     if (report.bad) report_bad_cell(air, s.scale, s.time);
     s.extremes.max_speed_lu = std::max(s.extremes.max_speed_lu, std::sqrt(report.max_speed2));
@@ -173,7 +181,7 @@ void find_loads(const Models& models, double interval, State& s) {
   if (!s.air && !models.frozen_air) return;
   std::vector<double> beta(count, 0.0), solid, volume;
   double largest_fraction = 1.0;
-  if (s.air && models.volume_fraction == VolumeFraction::in_drag) {
+  if (s.air && models.volume_fraction != VolumeFraction::none) {
     volume.resize(count);
     for (std::size_t p = 0; p < count; ++p)
       volume[p] = c.carriers[p] * 4.1887902047863909846 * std::pow(c.single_radius[p], 3);
@@ -187,12 +195,14 @@ void find_loads(const Models& models, double interval, State& s) {
       middle[p] = velocity[p] + (c.velocity[p] - velocity[p]) * std::exp(-0.5 * interval * beta[p] / c.mass[p]);
     drag_coefficients(models.drag, models.air, which, velocity, middle, c.single_radius, c.carriers, solid, beta);
   }
+  if (computes_air(models, s) && models.two_way) take_off_self(models, solid, s, velocity, beta);
   if (computes_air(models, s))
-    for (const int p : s.stencils.outside()) beta[p] = 0.0;  // no air there: nothing drags
-  const bool harmless = !volume.empty() && load_bound(largest_fraction, beta, volume, interval, s.scale) <= 1.0;
+    for (const int p : s.stencils.outside()) beta[p] = 0.0;      // no air there: nothing drags
+  const double reaction_time = interval / least_share(s.pores);  // a cell that is partly solid holds less air
+  const bool harmless = !volume.empty() && load_bound(largest_fraction, beta, volume, reaction_time, s.scale) <= 1.0;
   if (computes_air(models, s) && models.two_way && !harmless) {
     std::vector<double> scratch(count, 0.0);
-    limit_drag(s.stencils, interval, s.scale, s.spreader, scratch, beta);
+    limit_drag(s.stencils, reaction_time, s.scale, s.spreader, scratch, beta);
   }
   for (std::size_t p = 0; p < count; ++p) {
     s.loads[p].air_velocity = velocity[p];
@@ -281,7 +291,10 @@ void carry_fines(const Models& models, bool now, State& s) {
   lbm::ScalarOptions options = models.scalars;
   for (std::size_t k = 0; k < options.scalar.size(); ++k)
     options.scalar[k].diffusivity = s.scale.viscosity_lu(models.diffusion[k]);
-  if (computes_air(models, s)) lbm::find_mass_fluxes(*s.air, s.routes, s.fluxes);  // a frozen field's stay
+  if (computes_air(models, s)) {  // a frozen field's stay
+    lbm::find_mass_fluxes(*s.air, s.routes, s.fluxes);
+    if (!s.pores.cells.empty()) lbm::share_fluxes(*s.air, s.pores, s.routes, s.fluxes);
+  }
   try {
     lbm::advance_scalars(s.air->rows, s.fluxes, static_cast<double>(s.steps_since_scalars), options, s.scalars,
                          s.budget);
@@ -322,6 +335,7 @@ void advance(const Models& models, double until, State& s) {
       for (std::size_t p = 0; p < all.size(); ++p) all[p] = static_cast<int>(p);
       s.stencils_at = {s.carriers.carriers.position, s.carriers.carriers.radius};
       s.stencils.build(s.cells, s.stencils_at.position, s.stencils_at.radius, all);
+      if (computes_air(models, s)) follow_volume(models, steps, s);
     }
     if (computes_air(models, s)) step_air(models, steps, rescale, s);
   }
