@@ -5,7 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lbm/markers.hpp"
+#include "lbm/psm.hpp"
 #include "lbm/slip.hpp"
+#include "lbm/wall_model.hpp"
+#include "lbm/wall_schemes.hpp"
 
 namespace puffin::lbm {
 
@@ -22,7 +26,8 @@ std::vector<float> eddy_lengths(const Rows& rows, const LinkGeometry& surface, c
   std::vector<float> les(rows.slots(), 0.0F);
   if (options.smagorinsky <= 0.0) return les;
   const bool vreman = options.eddy == Eddy::vreman;
-  constexpr double slope = 1.0 / 14.0;
+  // Where a wall model gives the wall its stress, the cell beside it need not: kappa d.
+  const double slope = options.wall_model ? 0.41 : 1.0 / 14.0;
   auto walls = std::make_shared<geometry::TriangleMesh>(), outlets = std::make_shared<geometry::TriangleMesh>();
   walls->vertices = outlets->vertices = surface.mesh->vertices;
   for (std::size_t t = 0; t < surface.mesh->triangles.size(); ++t) {
@@ -148,6 +153,42 @@ Parity Air::parity() const {
   return std::visit([](const auto& p) { return p.next; }, populations);
 }
 
+namespace {
+
+/// The computed cells of the wall scheme, and what the scheme keeps of them.
+CellKinds lay_out_cells(const geometry::Voxels& voxels, const LinkGeometry& surface,
+                        const std::array<bool, 3>& periodic, Air& air) {
+  const AirOptions& options = air.options;
+  CellKinds kinds;
+  if (options.wall != WallScheme::ibm && options.wall != WallScheme::psm) {
+    air.rows = Rows(voxels, periodic);
+    air.fluid_cells = air.rows.active_cells();
+    return kinds;
+  }
+  const bool band = options.wall == WallScheme::ibm;
+  const double depth = options.markers.band();
+  const ActiveCells cells =
+      band ? with_band(voxels, surface, depth, periodic) : with_cut_cells(voxels, surface, least_fluid);
+  air.rows = Rows(cells.computed, periodic);
+  air.fluid.assign(air.rows.slots(), 0);
+  for (const Run& run : air.rows.runs())
+    for (int n = 0; n < run.count; ++n) {
+      const bool inside = cells.centre_inside[cells.computed.index(run.x + n, run.y, run.z)] != 0;
+      air.fluid[run.first + n] = inside;
+      air.fluid_cells += inside;
+    }
+  kinds.fluid = air.fluid;
+  kinds.sides = std::make_shared<const WallSides>(air.rows, surface, depth + 1.0);
+  if (band)
+    air.markers = std::make_shared<Markers>(place_markers(air.rows, *kinds.sides, surface, options.markers));
+  else
+    air.partial =
+        std::make_shared<PartialCells>(find_partial_cells(air.rows, cells, surface, options.double_precision));
+  return kinds;
+}
+
+}  // namespace
+
 Air make_air(const geometry::Voxels& voxels, const LinkGeometry& surface, const AirOptions& options) {
   std::array<bool, 3> periodic{false, false, false};
   Air air;
@@ -161,8 +202,8 @@ Air make_air(const geometry::Voxels& voxels, const LinkGeometry& surface, const 
       for (int d = 0; d < 3; ++d) periodic[d] = periodic[d] || std::abs(air.normal[b][d]) > 0.99;
   }
   air.options = options;
-  air.rows = Rows(voxels, periodic);
-  air.links = build_links(air.rows, surface, options.wall);
+  const CellKinds kinds = lay_out_cells(voxels, surface, periodic, air);
+  air.links = build_links(air.rows, surface, options.wall, kinds);
   const std::size_t slots = air.rows.slots();
   if (options.double_precision)
     air.populations = Populations<double>(slots);
@@ -183,10 +224,13 @@ Air make_air(const geometry::Voxels& voxels, const LinkGeometry& surface, const 
     std::swap(length2, air.les);
   }
   air.gradients = make_velocity_gradients(air.rows, air.links, air.boundaries, options.law == Law::hrr, length2);
+  if (options.wall_model)
+    air.wall_model = std::make_shared<WallModel>(find_modelled_cells(air.rows, air.links, surface));
   return air;
 }
 
 KernelReport collide_and_stream(const CollisionConstants& constants, const Drive& drive, Air& air) {
+  prepare_walls(constants, drive, air);
   std::vector<KernelReport> reports(air.rows.chunks().size());
   std::visit(
       [&]<class T>(Populations<T>& p) {
@@ -194,7 +238,7 @@ KernelReport collide_and_stream(const CollisionConstants& constants, const Drive
         input.f = p.f.data();
         input.stride = p.stride;
         input.runs = air.rows.runs().data();
-        input.run_flags = air.run_flags.data();
+        input.run_flags = air.markers ? air.markers->run_flags.data() : air.run_flags.data();
         input.parity = p.next;
         input.constants = constants;
         input.les = air.les.data();
@@ -208,7 +252,9 @@ KernelReport collide_and_stream(const CollisionConstants& constants, const Drive
           input.uniform_force[d] = drive.uniform_force[d];
           input.forced_everywhere = input.forced_everywhere || drive.uniform_force[d] != 0.0;
         }
-        const std::array<float*, 3> force{air.force.x.data(), air.force.y.data(), air.force.z.data()};
+        std::array<const float*, 3> force{air.force.x.data(), air.force.y.data(), air.force.z.data()};
+        if (air.markers)
+          for (int d = 0; d < 3; ++d) force[d] = air.markers->force[d].data();
         const std::array<float*, 4> moments{air.moments.density_excess.data(), air.moments.ux.data(),
                                             air.moments.uy.data(), air.moments.uz.data()};
         for (int d = 0; d < 3; ++d) input.force[d] = force[d];
@@ -235,9 +281,7 @@ KernelReport collide_and_stream(const CollisionConstants& constants, const Drive
 }
 
 void apply_links(const Drive& drive, Air& air) {
-  double wall_speed = 0.0;
-  for (std::size_t b = 0; b < air.boundaries.size(); ++b)
-    if (air.boundaries[b].kind == BoundaryKind::wall && air.boundaries[b].profile) wall_speed = drive.speed[b];
+  blend_partial_cells(air);
   std::visit(
       [&]<class T>(Populations<T>& p) {
         const Parity last = p.next;
@@ -251,7 +295,7 @@ void apply_links(const Drive& drive, Air& air) {
         input.parity = last;
         input.partner = links.partner.data();
         input.moving = links.moving.empty() ? nullptr : links.moving.data();
-        input.wall_speed = wall_speed;
+        input.wall_speed = wall_speed(drive, air);
         const WallKernel<T> kernel = select_wall_kernel<T>(air.options.isa);
         // A link writes a place of its own cell alone, and none that another link reads: any order gives the same.
         const std::size_t outlets = links.outlet_chunks.size() - 1, walls = links.wall_chunks.size() - 1;
@@ -278,6 +322,7 @@ void apply_links(const Drive& drive, Air& air) {
         p.next = last == Parity::even ? Parity::odd : Parity::even;
       },
       air.populations);
+  if (air.wall_model) impose_wall_stress(air);
   ++air.steps;
 }
 
@@ -288,7 +333,12 @@ CellMoments<double> moments_at(const Air& air, std::ptrdiff_t slot) {
         double g[19];
         for (int i = 0; i < d3q19::q; ++i) g[i] = p.arrived(run, slot, i);
         const double none[3] = {0, 0, 0};
-        return moments_of(hydrodynamics<false>([&](auto i) { return g[i]; }, none));
+        auto m = moments_of(hydrodynamics<false>([&](auto i) { return g[i]; }, none));
+        if (air.markers) {
+          double* const u[3] = {&m.ux, &m.uy, &m.uz};
+          for (int d = 0; d < 3; ++d) *u[d] += 0.5 * air.markers->force[d][slot] / (1.0 + m.density_excess);
+        }
+        return m;
       },
       air.populations);
 }
@@ -340,7 +390,7 @@ void set_cells(const std::function<InitialCell(const Vec3& centre)>& state, Air&
 }
 
 std::array<double, 3> force_on_patch(const Air& air, int boundary) {
-  std::array<double, 3> force{0, 0, 0};
+  std::array<double, 3> force = force_on_cells(air, boundary);
   std::visit(
       [&]<class T>(const Populations<T>& p) {
         const Parity last = p.next == Parity::even ? Parity::odd : Parity::even;
