@@ -4,6 +4,8 @@
 
 namespace puffin::lbm {
 
+const double psm_least_tau = 0.6;
+
 PartialCells find_partial_cells(const Rows& rows, const ActiveCells& cells, const LinkGeometry& surface,
                                 bool double_precision) {
   PartialCells partial;

@@ -34,7 +34,7 @@ struct PartialCells {
 };
 
 /// Smallest tau in B.
-inline constexpr double psm_least_tau = 0.6;
+extern const double psm_least_tau;
 /// Cells with a smaller share of fluid are taken as solid.
 inline constexpr double least_fluid = 0.01;
 

@@ -30,7 +30,8 @@ struct PartialInput {
   std::size_t first = 0, last = 0;  // [first, last) of segments
   Parity parity = Parity::even;     // of the collision
   CollisionConstants constants;
-  double least_tau = 0.6;
+  double least_tau = 0.5;
+  double eddy = 1.0;  // 0: `les` is not of the stress (Vreman), tau0 alone counts
   double uniform_force[3] = {0, 0, 0};
   double wall_speed = 0.0;
   const float* les = nullptr;                          // per slot

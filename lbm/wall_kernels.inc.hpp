@@ -85,7 +85,8 @@ void find_solid(const PartialInput<T>& in) {
           find_state<true>(
               [&](auto i) __attribute__((always_inline)) { return g[i]; }, force, les, s);
           const V half = constant<V>(0.5), one = constant<V>(1);
-          const V tau = larger<V>(half * twice_tau(s.p, in.constants.tau0, les), constant<V>(in.least_tau));
+          const V tau =
+              larger<V>(half * twice_tau(s.p, in.constants, constant<V>(in.eddy) * les), constant<V>(in.least_tau));
           const V eps = load<V>(in.solid + at), excess = tau - half;
           const V weight = eps * excess / ((one - eps) + excess);
           // Equilibria of the fluid and of the solid, in the units of the time step to come.

@@ -21,6 +21,7 @@ PartialInput<T> partial_input(PartialCells& cells, const Air& air, Populations<T
   input.parity = p.next;
   input.least_tau = psm_least_tau;
   input.les = air.les.data();
+  input.eddy = air.gradients.viscosity_wanted ? 0.0 : 1.0;
   input.solid = cells.solid.data();
   for (int d = 0; d < 3; ++d) {
     input.wall[d] = cells.wall[d].empty() ? nullptr : cells.wall[d].data();
