@@ -42,6 +42,8 @@ std::unique_ptr<Simulation> build(const Case& c, const StoredFieldReader& stored
 void build_air(Simulation& s);
 /// The collision of the lattice for that of the case file; the closed list of choices offers no other.
 lbm::Law law_of(Collision collision);
+/// Likewise for the walls.
+lbm::WallScheme wall_of(WallScheme wall);
 void build_carriers(Simulation& s);
 void build_fines(Simulation& s);
 

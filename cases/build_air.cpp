@@ -106,7 +106,9 @@ void build_lattice(const LatticeNumbers& numbers, Simulation& s) {
 
   lbm::AirOptions air;
   air.law = law_of(c.numerics.collision);
-  air.wall = c.numerics.wall == WallScheme::halfway ? lbm::WallScheme::halfway : lbm::WallScheme::bouzidi;
+  // A frozen field has no walls that act on the air: only the cells of the fluid are wanted.
+  air.wall = s.models.frozen_air ? lbm::WallScheme::bouzidi : wall_of(c.numerics.wall);
+  air.wall_model = c.numerics.wall_model && !s.models.frozen_air;
   air.double_precision = c.numerics.precision == Precision::float64;
   air.smagorinsky = c.numerics.les == Les::none ? 0.0 : c.numerics.smagorinsky_constant;
   air.eddy = c.numerics.les == Les::vreman ? lbm::Eddy::vreman : lbm::Eddy::smagorinsky;
@@ -115,7 +117,7 @@ void build_lattice(const LatticeNumbers& numbers, Simulation& s) {
   s.state.air = lbm::make_air(s.voxels, links, air);
   build_turbulence(s);
   s.state.scale = {s.dx, numbers.dt, c.air.density};
-  s.state.cells = coupling::CellIndex(s.state.air->rows);
+  s.state.cells = coupling::CellIndex(s.state.air->rows, s.state.air->fluid);
   s.state.touched.assign(s.state.air->rows.runs().size(), 0);
   s.state.spreader = coupling::Spreader(s.state.air->rows.slots());
 }
@@ -152,6 +154,20 @@ void build_frozen_cells(Simulation& s) {
 }
 
 }  // namespace
+
+lbm::WallScheme wall_of(WallScheme wall) {
+  switch (wall) {
+    case WallScheme::halfway:
+      return lbm::WallScheme::halfway;
+    case WallScheme::ibm:
+      return lbm::WallScheme::ibm;
+    case WallScheme::psm:
+      return lbm::WallScheme::psm;
+    case WallScheme::bouzidi:
+      break;
+  }
+  return lbm::WallScheme::bouzidi;
+}
 
 lbm::Law law_of(Collision collision) {
   switch (collision) {

@@ -42,10 +42,12 @@ std::vector<std::optional<double>> fixed_values(const Simulation& s, const std::
 }
 
 /// Fines in the air at the start: exp(-r^2/(2 sigma^2)) at the centres of the cells, scaled to the wanted amount.
-void place_cloud(const GaussianBlob& cloud, const lbm::Rows& rows, std::vector<double>& amount) {
+void place_cloud(const GaussianBlob& cloud, const lbm::Air& air, std::vector<double>& amount) {
+  const lbm::Rows& rows = air.rows;
   double sum = 0.0;
   for (const auto& run : rows.runs())
     for (std::ptrdiff_t slot = run.first; slot < run.first + run.count; ++slot) {
+      if (!air.is_fluid(slot)) continue;
       Vec3 r = rows.centre(slot) - cloud.center;
       for (int d = 0; d < 3; ++d)  // of the periodic images the nearest
         if (rows.periodic()[d]) r[d] -= rows.dx() * rows.box()[d] * std::round(r[d] / (rows.dx() * rows.box()[d]));
@@ -92,7 +94,7 @@ void build_fines(Simulation& s) {
     const int first = coupling::scalar_index(set, coupling::Mechanism::wall);
     s.models.scalars.scalar[first].fixed = fixed_values(s, scalar.name);
     if (scalar.initial) {
-      place_cloud(*scalar.initial, air.rows, s.state.scalars.amount[first]);
+      place_cloud(*scalar.initial, air, s.state.scalars.amount[first]);
       s.state.fines.placed[set] = lbm::total(s.state.scalars, first);
     }
     s.state.airborne = s.state.airborne || scalar.initial || !s.models.scalars.scalar[first].fixed.empty();

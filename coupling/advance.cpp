@@ -18,6 +18,7 @@
 #include "coupling/volume_fraction.hpp"
 #include "dem/advance.hpp"
 #include "dem/open_contacts.hpp"
+#include "lbm/wall_schemes.hpp"
 
 namespace puffin::coupling {
 
@@ -358,6 +359,8 @@ void advance(const Models& models, double until, State& s) {
       add_field_reaction(interval, s);
     }
   }
+  // The caller reads the air at `until`: with the forces of the walls as they belong to it.
+  if (computes_air(models, s) && s.time + interval >= until * (1.0 - 1e-12)) lbm::settle_walls(s.drive, *s.air);
   s.time += interval;
   move_fines(models, steps, interval, s);
   carry_fines(models, s.time >= until * (1.0 - 1e-12), s);  // the caller reads them at `until`

@@ -5,61 +5,60 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lbm/eddy_length.hpp"
+#include "lbm/markers.hpp"
+#include "lbm/psm.hpp"
+#include "lbm/slip.hpp"
+#include "lbm/wall_model.hpp"
+#include "lbm/wall_schemes.hpp"
+
 namespace puffin::lbm {
 
 using geometry::Vec3;
 
-namespace {
-
-/// 18 sqrt2 L^2 with L = min(C_s, d/14), d the wall distance in cells (at least 1/2), and C_s raised up to threefold in
-/// the sponge. d/14: the cell beside a wall (y+ of 20 to 60 at device scale) then carries the stress of the log law,
-/// tau_w = rho (L u/d)^2 = rho (u/u+)^2 with u+ = 14. With kappa d instead (0.2 at d = 1/2, so C_s) the friction of a
-/// channel 6 cells high came out five times too large: docs/decisions/0002-mixing-length-at-walls.md.
-/// Vreman's viscosity needs no help at walls, so there L = C_s but for the sponge; returned is c L^2, c = 2.5.
-std::vector<float> eddy_lengths(const Rows& rows, const LinkGeometry& surface, const AirOptions& options) {
-  std::vector<float> les(rows.slots(), 0.0F);
-  if (options.smagorinsky <= 0.0) return les;
-  const bool vreman = options.eddy == Eddy::vreman;
-  constexpr double slope = 1.0 / 14.0;
-  auto walls = std::make_shared<geometry::TriangleMesh>(), outlets = std::make_shared<geometry::TriangleMesh>();
-  walls->vertices = outlets->vertices = surface.mesh->vertices;
-  for (std::size_t t = 0; t < surface.mesh->triangles.size(); ++t) {
-    const BoundaryKind kind = surface.boundaries[surface.patch_of_triangle[t]].kind;
-    if (kind == BoundaryKind::wall || kind == BoundaryKind::pressure_outlet) {
-      auto& mesh = kind == BoundaryKind::wall ? walls : outlets;
-      mesh->triangles.push_back(surface.mesh->triangles[t]);
-      mesh->solid.push_back(0);
-    }
-  }
-  using geometry::TriangleTree;
-  const auto tree_of = [](const std::shared_ptr<geometry::TriangleMesh>& mesh) {
-    return mesh->triangles.empty() ? nullptr : std::make_unique<TriangleTree>(mesh);
-  };
-  const auto wall_tree = tree_of(walls), outlet_tree = tree_of(outlets);
-  const double dx = rows.dx(), reach = options.smagorinsky / slope * dx;
-  for_each_chunk(rows, [&](int, const Chunk& chunk) {
-    for (int r = chunk.first_run; r < chunk.last_run; ++r)
-      for (int n = 0; n < rows.runs()[r].count; ++n) {
-        const std::ptrdiff_t slot = rows.runs()[r].first + n;
-        const Vec3 x = rows.centre(slot);
-        double length = options.smagorinsky;
-        if (outlet_tree && options.sponge_length > 0.0) {
-          const double d = outlet_tree->closest(x, options.sponge_length).distance;
-          if (d < options.sponge_length) length *= 3.0 - 2.0 * d / options.sponge_length;
-        }
-        if (wall_tree && !vreman)
-          length = std::min(length, slope * std::max(0.5, wall_tree->closest(x, 3.0 * reach).distance / dx));
-        les[slot] = static_cast<float>((vreman ? 2.5 : 18.0 * std::sqrt(2.0)) * length * length);
-      }
-  });
-  return les;
-}
+namespace {}
 
 }  // namespace
 
 Parity Air::parity() const {
   return std::visit([](const auto& p) { return p.next; }, populations);
 }
+
+namespace {
+
+/// The computed cells of the wall scheme, and what the scheme keeps of them.
+CellKinds lay_out_cells(const geometry::Voxels& voxels, const LinkGeometry& surface,
+                        const std::array<bool, 3>& periodic, Air& air) {
+  const AirOptions& options = air.options;
+  CellKinds kinds;
+  if (options.wall != WallScheme::ibm && options.wall != WallScheme::psm) {
+    air.rows = Rows(voxels, periodic);
+    air.fluid_cells = air.rows.active_cells();
+    return kinds;
+  }
+  const bool band = options.wall == WallScheme::ibm;
+  const double depth = options.markers.band();
+  const ActiveCells cells =
+      band ? with_band(voxels, surface, depth, periodic) : with_cut_cells(voxels, surface, least_fluid);
+  air.rows = Rows(cells.computed, periodic);
+  air.fluid.assign(air.rows.slots(), 0);
+  for (const Run& run : air.rows.runs())
+    for (int n = 0; n < run.count; ++n) {
+      const bool inside = cells.centre_inside[cells.computed.index(run.x + n, run.y, run.z)] != 0;
+      air.fluid[run.first + n] = inside;
+      air.fluid_cells += inside;
+    }
+  kinds.fluid = air.fluid;
+  kinds.sides = std::make_shared<const WallSides>(air.rows, surface, depth + 1.0);
+  if (band)
+    air.markers = std::make_shared<Markers>(place_markers(air.rows, *kinds.sides, surface, options.markers));
+  else
+    air.partial =
+        std::make_shared<PartialCells>(find_partial_cells(air.rows, cells, surface, options.double_precision));
+  return kinds;
+}
+
+}  // namespace
 
 Air make_air(const geometry::Voxels& voxels, const LinkGeometry& surface, const AirOptions& options) {
   std::array<bool, 3> periodic{false, false, false};
@@ -74,8 +73,8 @@ Air make_air(const geometry::Voxels& voxels, const LinkGeometry& surface, const 
       for (int d = 0; d < 3; ++d) periodic[d] = periodic[d] || std::abs(air.normal[b][d]) > 0.99;
   }
   air.options = options;
-  air.rows = Rows(voxels, periodic);
-  air.links = build_links(air.rows, surface, options.wall);
+  const CellKinds kinds = lay_out_cells(voxels, surface, periodic, air);
+  air.links = build_links(air.rows, surface, options.wall, kinds);
   const std::size_t slots = air.rows.slots();
   if (options.double_precision)
     air.populations = Populations<double>(slots);
@@ -96,6 +95,8 @@ Air make_air(const geometry::Voxels& voxels, const LinkGeometry& surface, const 
     std::swap(length2, air.les);
   }
   air.gradients = make_velocity_gradients(air.rows, air.links, air.boundaries, options.law == Law::hrr, length2);
+  if (options.wall_model)
+    air.wall_model = std::make_shared<WallModel>(find_modelled_cells(air.rows, air.links, surface));
   return air;
 }
 
@@ -106,7 +107,12 @@ CellMoments<double> moments_at(const Air& air, std::ptrdiff_t slot) {
         double g[19];
         for (int i = 0; i < d3q19::q; ++i) g[i] = p.arrived(run, slot, i);
         const double none[3] = {0, 0, 0};
-        return moments_of(hydrodynamics<false>([&](auto i) { return g[i]; }, none));
+        auto m = moments_of(hydrodynamics<false>([&](auto i) { return g[i]; }, none));
+        if (air.markers) {
+          double* const u[3] = {&m.ux, &m.uy, &m.uz};
+          for (int d = 0; d < 3; ++d) *u[d] += 0.5 * air.markers->force[d][slot] / (1.0 + m.density_excess);
+        }
+        return m;
       },
       air.populations);
 }
@@ -158,7 +164,7 @@ void set_cells(const std::function<InitialCell(const Vec3& centre)>& state, Air&
 }
 
 std::array<double, 3> force_on_patch(const Air& air, int boundary) {
-  std::array<double, 3> force{0, 0, 0};
+  std::array<double, 3> force = force_on_cells(air, boundary);
   std::visit(
       [&]<class T>(const Populations<T>& p) {
         const Parity last = p.next == Parity::even ? Parity::odd : Parity::even;

@@ -9,8 +9,11 @@
 
 #include "lbm/air.hpp"
 #include "lbm/link_schedule.hpp"
+#include "lbm/markers.hpp"
 #include "lbm/openings.hpp"
 #include "lbm/slip.hpp"
+#include "lbm/wall_model.hpp"
+#include "lbm/wall_schemes.hpp"
 
 namespace puffin::lbm {
 
@@ -51,7 +54,7 @@ KernelInput<T> kernel_input(const CollisionConstants& constants, const Drive& dr
   input.f = p.f.data();
   input.stride = p.stride;
   input.runs = air.rows.runs().data();
-  input.run_flags = air.run_flags.data();
+  input.run_flags = air.markers ? air.markers->run_flags.data() : air.run_flags.data();
   input.parity = p.next;
   input.constants = constants;
   input.les = air.les.data();
@@ -65,7 +68,9 @@ KernelInput<T> kernel_input(const CollisionConstants& constants, const Drive& dr
     input.uniform_force[d] = drive.uniform_force[d];
     input.forced_everywhere = input.forced_everywhere || drive.uniform_force[d] != 0.0;
   }
-  const std::array<float*, 3> force{air.force.x.data(), air.force.y.data(), air.force.z.data()};
+  std::array<const float*, 3> force{air.force.x.data(), air.force.y.data(), air.force.z.data()};
+  if (air.markers)
+    for (int d = 0; d < 3; ++d) force[d] = air.markers->force[d].data();
   const std::array<float*, 4> moments{air.moments.density_excess.data(), air.moments.ux.data(), air.moments.uy.data(),
                                       air.moments.uz.data()};
   for (int d = 0; d < 3; ++d) input.force[d] = force[d];
@@ -113,8 +118,7 @@ class ApplyLinks {
     walls_.group_partner = schedule_.partner.data();
     walls_.group_moving = schedule_.moving.data();
     walls_.parity = p.next;
-    for (std::size_t b = 0; b < air.boundaries.size(); ++b)
-      if (air.boundaries[b].kind == BoundaryKind::wall && air.boundaries[b].profile) walls_.wall_speed = drive.speed[b];
+    walls_.wall_speed = wall_speed(drive, air);
   }
   /// The walls that can be done right after `chunk`, when all chunks from `begin` on are collided.
   void ready_walls(int chunk, int begin) const {
@@ -167,12 +171,14 @@ void end_step(Parity last, Populations<T>& p, Air& air) {
   reflect_at_slip_walls(air.rows, air.links.slip, last, p);
   reflect_at_thin_walls(air.rows, air.links, p);
   p.next = last == Parity::even ? Parity::odd : Parity::even;
+  if (air.wall_model) impose_wall_stress(air);
   ++air.steps;
 }
 
 }  // namespace
 
 KernelReport collide_and_stream(const CollisionConstants& constants, const Drive& drive, Air& air) {
+  prepare_walls(constants, drive, air);
   std::vector<KernelReport> reports(air.rows.chunks().size());
   std::visit(
       [&]<class T>(Populations<T>& p) {
@@ -186,6 +192,7 @@ KernelReport collide_and_stream(const CollisionConstants& constants, const Drive
 }
 
 void apply_links(const Drive& drive, Air& air) {
+  blend_partial_cells(air);
   std::visit(
       [&]<class T>(Populations<T>& p) {
         const Parity last = p.next;
@@ -204,6 +211,11 @@ void apply_links(const Drive& drive, Air& air) {
 }
 
 KernelReport advance_air(const CollisionConstants& constants, const Drive& drive, Air& air) {
+  if (air.partial || air.markers || air.wall_model) {  // they need all cells collided before the links
+    const KernelReport report = collide_and_stream(constants, drive, air);
+    apply_links(drive, air);
+    return report;
+  }
   const int chunks = static_cast<int>(air.rows.chunks().size());
   const int parts = std::min(chunks, oneapi::tbb::this_task_arena::max_concurrency());
   const auto begin_of = [&](int part) { return static_cast<int>(static_cast<std::int64_t>(chunks) * part / parts); };

@@ -7,7 +7,8 @@
 //   q <  1/2:  f_in = 2q f_out + (1-2q) f_out(x - c)        q >= 1/2:  f_in = f_out/(2q) + (1 - 1/(2q)) f_own,
 // f_own the post-collision population of the cell in the returning direction.
 // Source: Bouzidi, Firdaouss & Lallemand, Phys. Fluids 13, 3452 (2001). Each cell's mass imbalance over its cut links
-// is returned over them in proportion to the lattice weights, so that the air's mass is conserved to round-off.
+// goes into its population at rest, so that the air's mass is conserved to round-off and no momentum is added (given
+// back over the links it displaced inclined walls twice as far: docs/decisions/0007-walls.md).
 // Half-way bounce-back is the same with q = 1/2 everywhere.
 
 #include <cstdint>
@@ -23,7 +24,16 @@
 namespace puffin::lbm {
 
 enum class BoundaryKind { wall, velocity_inlet, pressure_outlet, periodic, slip };
-enum class WallScheme { bouzidi, halfway };
+enum class WallScheme { bouzidi, halfway, ibm, psm };
+
+class WallSides;
+
+/// For walls that act on whole cells (ibm, psm): which computed cells have their centre in the fluid, and where the
+/// walls are. Links between computed cells are then open but for thin walls; links out of them reflect half-way.
+struct CellKinds {
+  std::vector<std::uint8_t> fluid;  // by slot
+  std::shared_ptr<const WallSides> sides;
+};
 
 /// What happens at one patch of the surface.
 struct Boundary {
@@ -91,6 +101,6 @@ struct LinkGeometry {
 };
 
 /// Finds every cut link. Throws std::runtime_error if an opening got no link at all.
-Links build_links(const Rows& rows, const LinkGeometry& surface, WallScheme scheme);
+Links build_links(const Rows& rows, const LinkGeometry& surface, WallScheme scheme, const CellKinds& kinds = {});
 
 }  // namespace puffin::lbm

@@ -178,6 +178,8 @@ void describe(Fields& io, Numerics& n, AirModel air) {
   io.number("smagorinsky_constant", n.smagorinsky_constant, unit::number, Range::non_negative, otherwise(0.10));
   io.flag("wall_model", n.wall_model, otherwise(false));
   if (n.wall_model && !features.wall_model) refuse(io, "wall_model", "a wall model");
+  if (n.wall_model && (n.wall == WallScheme::ibm || n.wall == WallScheme::psm))
+    io.problem("wall_model", "the wall model acts on cut links: take wall = \"bouzidi\" or \"halfway\" with it");
   io.choice("precision", n.precision, otherwise(Precision::float32));
   std::int64_t threads = n.threads;
   io.integer("threads", threads, Range::non_negative, otherwise<std::int64_t>(0));

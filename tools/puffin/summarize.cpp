@@ -220,8 +220,8 @@ output::Summary summarize(const cases::Simulation& s, const Recorder& recorder, 
   r.skipped = skipped(s);
   if (s.state.air) {
     const auto& air = *s.state.air;
-    r.cells_fluid = static_cast<std::int64_t>(air.rows.active_cells());
-    r.cells_active = r.cells_fluid;  // the sharp wall has no band of cells behind it
+    r.cells_fluid = static_cast<std::int64_t>(air.fluid_cells);
+    r.cells_active = static_cast<std::int64_t>(air.rows.active_cells());
     r.steps = air.steps;
     const double seconds = e.air + e.links;
     r.mlups = seconds > 0.0 ? 1e-6 * static_cast<double>(r.cells_fluid) * static_cast<double>(r.steps) / seconds : 0.0;
