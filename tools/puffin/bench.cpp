@@ -21,6 +21,9 @@ using nlohmann::json;
 std::span<const Bench> benches() {
   static constexpr std::array list{
       Bench{"kernel", "the air alone, beside the memory's bound", &bench_kernel},
+      Bench{"pareto", "run time against error over many settings", &bench_pareto},
+      Bench{"skip", "what is left out, put back in: time and change of the answer", &bench_skip},
+      Bench{"scaling", "cost as cells, carriers, scalars and triangles grow", &bench_scaling},
   };
   return list;
 }
