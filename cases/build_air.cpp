@@ -106,7 +106,9 @@ void build_lattice(const LatticeNumbers& numbers, Simulation& s) {
   air.law = law_of(c.numerics.collision);
   air.wall = c.numerics.wall == WallScheme::halfway ? lbm::WallScheme::halfway : lbm::WallScheme::bouzidi;
   air.double_precision = c.numerics.precision == Precision::float64;
-  air.smagorinsky = c.numerics.les == Les::smagorinsky ? c.numerics.smagorinsky_constant : 0.0;
+  air.smagorinsky = c.numerics.les == Les::none ? 0.0 : c.numerics.smagorinsky_constant;
+  air.eddy = c.numerics.les == Les::vreman ? lbm::Eddy::vreman : lbm::Eddy::smagorinsky;
+  air.hrr_sigma = c.numerics.hrr_sigma;
   air.sponge_length = sponge_length(s);
   s.state.air = lbm::make_air(s.voxels, links, air);
   build_turbulence(s);
@@ -157,9 +159,12 @@ lbm::Law law_of(Collision collision) {
       return lbm::Law::trt;
     case Collision::central_moments:
       return lbm::Law::central_moments;
-    default:
-      return lbm::Law::rr3;
+    case Collision::hrr:
+      return lbm::Law::hrr;
+    case Collision::rr3:
+      break;
   }
+  return lbm::Law::rr3;
 }
 
 void build_air(Simulation& s) {

@@ -147,6 +147,7 @@ struct Numerics {
   TimeStepRule time_step = TimeStepRule::follow_ramp;
   double time_step_seconds = 0.0;  // [s], time_step = given
   Collision collision = Collision::rr3;
+  double hrr_sigma = 0.0;  // share of the cell's own stress in the collision hrr
   WallScheme wall = WallScheme::bouzidi;
   Les les = Les::smagorinsky;
   double smagorinsky_constant = 0.0;

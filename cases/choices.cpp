@@ -32,12 +32,12 @@ constexpr std::array profiles{word(Profile::plug, "plug", yes), word(Profile::du
 constexpr std::array time_steps{word(TimeStepRule::follow_ramp, "follow-ramp", yes),
                                 word(TimeStepRule::fixed, "fixed", yes)};
 constexpr std::array collisions{word(Collision::bgk, "bgk", yes), word(Collision::trt, "trt", yes),
-                                word(Collision::rr3, "rr3", yes), word(Collision::hrr, "hrr", no),
+                                word(Collision::rr3, "rr3", yes), word(Collision::hrr, "hrr", yes),
                                 word(Collision::central_moments, "central-moments", yes)};
 constexpr std::array walls{word(WallScheme::bouzidi, "bouzidi", yes), word(WallScheme::ibm, "ibm", no),
                            word(WallScheme::psm, "psm", no), word(WallScheme::halfway, "halfway", yes)};
 constexpr std::array les_models{word(Les::none, "none", yes), word(Les::smagorinsky, "smagorinsky", yes),
-                                word(Les::vreman, "vreman", no)};
+                                word(Les::vreman, "vreman", yes)};
 constexpr std::array precisions{word(Precision::float32, "float", yes), word(Precision::float64, "double", yes)};
 constexpr std::array fill_shapes{word(FillShape::cylinder, "cylinder", yes), word(FillShape::cube, "cube", yes),
                                  word(FillShape::settled, "settled", yes), word(FillShape::file, "file", yes)};

@@ -17,9 +17,11 @@ namespace {
 /// the sponge. d/14: the cell beside a wall (y+ of 20 to 60 at device scale) then carries the stress of the log law,
 /// tau_w = rho (L u/d)^2 = rho (u/u+)^2 with u+ = 14. With kappa d instead (0.2 at d = 1/2, so C_s) the friction of a
 /// channel 6 cells high came out five times too large: docs/decisions/0002-mixing-length-at-walls.md.
+/// Vreman's viscosity needs no help at walls, so there L = C_s but for the sponge; returned is c L^2, c = 2.5.
 std::vector<float> eddy_lengths(const Rows& rows, const LinkGeometry& surface, const AirOptions& options) {
   std::vector<float> les(rows.slots(), 0.0F);
   if (options.smagorinsky <= 0.0) return les;
+  const bool vreman = options.eddy == Eddy::vreman;
   constexpr double slope = 1.0 / 14.0;
   auto walls = std::make_shared<geometry::TriangleMesh>(), outlets = std::make_shared<geometry::TriangleMesh>();
   walls->vertices = outlets->vertices = surface.mesh->vertices;
@@ -47,9 +49,9 @@ std::vector<float> eddy_lengths(const Rows& rows, const LinkGeometry& surface, c
           const double d = outlet_tree->closest(x, options.sponge_length).distance;
           if (d < options.sponge_length) length *= 3.0 - 2.0 * d / options.sponge_length;
         }
-        if (wall_tree)
+        if (wall_tree && !vreman)
           length = std::min(length, slope * std::max(0.5, wall_tree->closest(x, 3.0 * reach).distance / dx));
-        les[slot] = static_cast<float>(18.0 * std::sqrt(2.0) * length * length);
+        les[slot] = static_cast<float>((vreman ? 2.5 : 18.0 * std::sqrt(2.0)) * length * length);
       }
   });
   return les;
@@ -175,6 +177,12 @@ Air make_air(const geometry::Voxels& voxels, const LinkGeometry& surface, const 
     for (int n = 0; n < air.rows.runs()[r].count; ++n)
       air.run_of_slot[air.rows.runs()[r].first + n] = static_cast<std::int32_t>(r);
   air.les = eddy_lengths(air.rows, surface, options);
+  std::vector<float> length2;
+  if (options.eddy == Eddy::vreman && options.smagorinsky > 0.0) {
+    length2.assign(slots, 0.0F);
+    std::swap(length2, air.les);
+  }
+  air.gradients = make_velocity_gradients(air.rows, air.links, air.boundaries, options.law == Law::hrr, length2);
   return air;
 }
 
@@ -190,6 +198,12 @@ KernelReport collide_and_stream(const CollisionConstants& constants, const Drive
         input.parity = p.next;
         input.constants = constants;
         input.les = air.les.data();
+        input.constants.hrr_sigma = air.options.hrr_sigma;
+        if (air.gradients.wanted()) {
+          find_velocity_gradients(air.rows, p, drive.speed, constants.tau0, air.options.isa, air.gradients, air.les);
+          if (air.gradients.viscosity_wanted) input.constants.from_stress = 0.0;
+          for (int n = 0; n < 6; ++n) input.strain[n] = air.gradients.strain[n].data();
+        }
         for (int d = 0; d < 3; ++d) {
           input.uniform_force[d] = drive.uniform_force[d];
           input.forced_everywhere = input.forced_everywhere || drive.uniform_force[d] != 0.0;

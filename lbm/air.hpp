@@ -15,14 +15,20 @@
 #include "lbm/moments.hpp"
 #include "lbm/populations.hpp"
 #include "lbm/rows.hpp"
+#include "lbm/velocity_gradients.hpp"
 
 namespace puffin::lbm {
+
+/// Where the eddy viscosity comes from: the cell's own stress, or the velocity gradient (vreman.hpp).
+enum class Eddy { smagorinsky, vreman };
 
 struct AirOptions {
   Law law = Law::rr3;
   WallScheme wall = WallScheme::bouzidi;
   bool double_precision = false;
-  double smagorinsky = 0.10;   // C_s; 0: no eddy viscosity
+  double smagorinsky = 0.10;  // C_s; 0: no eddy viscosity
+  Eddy eddy = Eddy::smagorinsky;
+  double hrr_sigma = 0.98;     // law hrr: share of the cell's own stress
   double sponge_length = 0.0;  // [m] before the outlets, over which C_s rises threefold (numerics: outlet stability)
   Isa isa = detect_isa();
 };
@@ -46,7 +52,8 @@ struct Air {
   BodyForce force;
   std::vector<std::uint8_t> run_flags;    // per run: run_forced, run_moments
   std::vector<std::int32_t> run_of_slot;  // -1: not active
-  std::vector<float> les;                 // 18 sqrt2 L^2 per slot
+  std::vector<float> les;                 // per slot: 18 sqrt2 L^2, or what prescribed_les says
+  VelocityGradients gradients;            // for hrr and vreman
   std::int64_t steps = 0;
   std::int64_t limited = 0;   // cells x steps in which the positivity limiter acted
   std::int64_t backflow = 0;  // outlet cells x steps with the back-flow cut

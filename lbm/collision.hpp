@@ -35,6 +35,8 @@ struct CollisionConstants {
   double tau0 = 1.0;           // molecular relaxation time: nu = (tau0 - 1/2)/3
   double rescale = 1.0;        // ratio r = dt_new/dt_old, used in the one step in which the time step changes
   double tau0_rescaled = 1.0;  // relaxation time after the change
+  double from_stress = 1.0;    // 1: the eddy viscosity follows the cell's stress (Smagorinsky); 0: `les` prescribes it
+  double hrr_sigma = 0.98;     // share of the cell's own stress in Hrr
 };
 
 /// Density and velocity that a collision found; what interpolation, output and the health check want to know.
@@ -116,17 +118,26 @@ template <class Real>
   for (int d = 0; d < 3; ++d) pi[d] = pi[d] - mean;
 }
 
-/// Twice the relaxation time with the eddy viscosity of Smagorinsky in closed form,
+/// Twice the relaxation time with an eddy viscosity. From the stress, Smagorinsky's in closed form:
 ///   2 tau = tau0 + sqrt(tau0^2 + 18 sqrt2 L^2 |Pi|/rho).
 /// Source: Hou, Sterling, Chen & Doolen, Fields Inst. Comm. 6, 151 (1996). `les` = 18 sqrt2 L^2/rho, L in cells; |Pi|
-/// of the deviatoric part where the caller has removed the trace.
+/// of the deviatoric part where the caller has removed the trace. Prescribed (from_stress = 0): |Pi| is replaced by 1,
+/// and `les` = 36 nu_t (nu_t + tau0/3) makes it tau0 + 3 nu_t (prescribed_les).
 template <class Real>
-[[gnu::always_inline]] inline Real twice_tau(const Real (&p)[6], double tau0, const Real& les) {
+[[gnu::always_inline]] inline Real twice_tau(const Real (&p)[6], const CollisionConstants& c, const Real& les) {
   using std::sqrt;
   const Real diagonal = p[0] * p[0] + p[1] * p[1] + p[2] * p[2];
   const Real across = p[3] * p[3] + p[4] * p[4] + p[5] * p[5];
-  const Real norm = sqrt(diagonal + (across + across));
-  return constant<Real>(tau0) + sqrt(constant<Real>(tau0 * tau0) + les * norm);
+  const Real norm =
+      sqrt(constant<Real>(c.from_stress) * (diagonal + (across + across)) + constant<Real>(1.0 - c.from_stress));
+  return constant<Real>(c.tau0) + sqrt(constant<Real>(c.tau0 * c.tau0) + les * norm);
+}
+
+/// The `les` that gives the eddy viscosity nu_t [lattice units], over the density as twice_tau takes it:
+///   (tau0 + 6 nu_t)^2 = tau0^2 + 12 tau0 nu_t + 36 nu_t^2.
+template <class Real>
+[[gnu::always_inline]] inline Real prescribed_les(const Real& nu_t, double tau0) {
+  return nu_t * (constant<Real>(12.0 * tau0) + constant<Real>(36) * nu_t);
 }
 
 }  // namespace puffin::lbm

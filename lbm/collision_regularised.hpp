@@ -35,7 +35,7 @@ struct RelaxStress {
 
   template <class Real>
   [[gnu::always_inline]] static inline Real relax(const CollisionConstants& c, const Real& les, CellState<Real>& s) {
-    return constant<Real>(1) - constant<Real>(2) / twice_tau(s.p, c.tau0, les);
+    return constant<Real>(1) - constant<Real>(2) / twice_tau(s.p, c, les);
   }
 };
 
@@ -48,7 +48,7 @@ struct RelaxRescaled {
   template <class Real>
   [[gnu::always_inline]] static inline Real relax(const CollisionConstants& c, const Real& les, CellState<Real>& s) {
     const Real one = constant<Real>(1), r = constant<Real>(c.rescale);
-    const Real tau = constant<Real>(0.5) * twice_tau(s.p, c.tau0, les);
+    const Real tau = constant<Real>(0.5) * twice_tau(s.p, c, les);
     const Real tau_new = constant<Real>(c.tau0_rescaled) + r * (tau - constant<Real>(c.tau0));
     const Real old_rho = one + s.drho;
     s.drho = constant<Real>(c.rescale * c.rescale) * s.drho;
@@ -151,6 +151,27 @@ struct Rr3 : RelaxStress {
 
 /// RR3 in the step in which the time step changes.
 struct Rr3Rescaled : RelaxRescaled {
+  template <bool Forced, class Real, class Put>
+  [[gnu::always_inline]] static inline void assemble(const CellState<Real>& r, const Real (&force)[3], const Put& put) {
+    Rr3::assemble<Forced>(r, force, put);
+  }
+};
+
+/// Hybrid recursive-regularised collision: RR3 whose stress is blended with the one that the strain rate S of the
+/// velocity field asks for,  Pi <- sigma Pi + (1 - sigma)(-2/3 rho tau S),  S by finite differences and without trace
+/// (velocity_gradients.hpp). The whole stress is blended, in the second and the third order.
+/// Source: Jacob, Malaspinas & Sagaut, J. Turbulence 19, 1051 (2018). sigma = 1: RR3. Linearly stable to |u| = 0.15 at
+/// tau = 0.5003, sigma = 0.98. tau is that of the cell's own stress. Second order: nu = (tau - 1/2)/3.
+struct Hrr : RelaxStress {
+  template <class Real>
+  [[gnu::always_inline]] static inline void blend(const CollisionConstants& c, const Real& les, const Real (&strain)[6],
+                                                  CellState<Real>& s) {
+    const Real own = constant<Real>(c.hrr_sigma);
+    const Real field =
+        constant<Real>((c.hrr_sigma - 1.0) / 3.0) * ((constant<Real>(1) + s.drho) * twice_tau(s.p, c, les));
+    for (int n = 0; n < 6; ++n) s.p[n] = own * s.p[n] + field * strain[n];
+  }
+
   template <bool Forced, class Real, class Put>
   [[gnu::always_inline]] static inline void assemble(const CellState<Real>& r, const Real (&force)[3], const Put& put) {
     Rr3::assemble<Forced>(r, force, put);

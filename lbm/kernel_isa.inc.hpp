@@ -9,6 +9,7 @@
 #include <type_traits>
 
 #include "lbm/kernel.hpp"
+#include "lbm/vreman.hpp"
 
 namespace puffin::lbm::PUFFIN_ISA {
 namespace {
@@ -37,6 +38,7 @@ template <class P>
 
 // The parts of this unit, in this namespace.
 #include "lbm/kernel_fluxes.inc.hpp"
+#include "lbm/kernel_gradients.inc.hpp"
 #include "lbm/kernel_sweep.inc.hpp"
 #include "lbm/kernel_walls.inc.hpp"
 
@@ -47,6 +49,9 @@ FluxKernel<float> fluxes_float() { return &fluxes<float>; }
 FluxKernel<double> fluxes_double() { return &fluxes<double>; }
 WallKernel<float> walls_float() { return &walls<float>; }
 WallKernel<double> walls_double() { return &walls<double>; }
+VelocityKernel<float> velocities_float() { return &velocities<float>; }
+VelocityKernel<double> velocities_double() { return &velocities<double>; }
+GradientKernel gradients() { return &find_gradients; }
 template <class T>
 Kernel<T> kernel_of(Law law, bool rescale) {
   if (rescale) return &sweep<T, Rr3Rescaled>;
@@ -57,6 +62,8 @@ Kernel<T> kernel_of(Law law, bool rescale) {
       return &sweep<T, Trt>;
     case Law::central_moments:
       return &sweep<T, CentralMoments>;
+    case Law::hrr:
+      return &sweep<T, Hrr>;
     case Law::rr3:
       break;
   }

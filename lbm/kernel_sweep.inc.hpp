@@ -180,6 +180,11 @@ class Batch {
     les = load_float<T>(in_.les + p.slot);
     find_state<Forced>(
         [&](auto i) __attribute__((always_inline)) { return read<fit>(p, i, mine); }, force, les, state);
+    if constexpr (requires { &L::template blend<P>; }) {
+      P strain[6];
+      for (int n = 0; n < 6; ++n) strain[n] = load_float<T>(in_.strain[n] + p.slot);
+      L::blend(constants_, les, strain, state);
+    }
   }
   [[gnu::noinline]] void gather_short(const Place<T>& p, P& les, CellState<P>& state) const {
     gather<Fit::short_run>(p, les, state);

@@ -105,6 +105,7 @@ class Checks {
     const Numerics& n = c_.numerics;
     if (n.lattice_speed > 0.3)
       say("numerics.lattice_speed", "beyond 0.3 no scheme here is stable; 0.05 to 0.15 is usual");
+    if (n.hrr_sigma > 1.0) say("numerics.hrr_sigma", "is a share, at most 1; 0.98 is usual and 1 is rr3");
     if (n.smagorinsky_constant > 1.0) say("numerics.smagorinsky_constant", "must be below 1; 0.1 to 0.17 is usual");
     const bool amplitude = a.initial_velocity.norm() > 0.0 || n.reference_speed;
     if ((a.initial == InitialField::taylor_green || a.initial == InitialField::shear_layer) && !amplitude)

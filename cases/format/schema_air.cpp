@@ -172,6 +172,7 @@ void describe(Fields& io, Numerics& n, AirModel air) {
     io.number("time_step", n.time_step_seconds, unit::time, Range::positive, required);
   }
   io.choice("collision", n.collision, otherwise(Collision::rr3));
+  io.number("hrr_sigma", n.hrr_sigma, unit::number, Range::non_negative, otherwise(0.98));
   io.choice("wall", n.wall, otherwise(WallScheme::bouzidi));
   io.choice("les", n.les, otherwise(Les::smagorinsky));
   io.number("smagorinsky_constant", n.smagorinsky_constant, unit::number, Range::non_negative, otherwise(0.10));

@@ -75,8 +75,8 @@ void time_fields(auto& archive, Is<State> auto& state) {
 
 /// The lattice belongs to the case; of the air only what moves.
 void air_fields(auto& archive, auto& air) {
-  auto& [rows, links, boundaries, normal, options, populations, moments, force, run_flags, run_of_slot, les, steps,
-         limited, backflow] = air;
+  auto& [rows, links, boundaries, normal, options, populations, moments, force, run_flags, run_of_slot, les, gradients,
+         steps, limited, backflow] = air;
   archive(steps, limited, backflow);
   std::visit([&](auto& p) { archive(p.next, p.f); }, populations);
 }
@@ -198,7 +198,7 @@ std::uint64_t fingerprint(const State& state) {
   std::uint64_t hash = 0;
   hash_in(numbers, hash);
   hash_in(air.links.partner, hash);
-  hash_in(air.les, hash);
+  hash_in(air.gradients.viscosity_wanted ? air.gradients.length2 : air.les, hash);  // what does not change with time
   return hash;
 }
 

@@ -51,6 +51,8 @@ Calibration calibrate(const cases::Numerics& n) {
   options.law = cases::law_of(n.collision);
   options.double_precision = n.precision == cases::Precision::float64;
   options.smagorinsky = n.les == cases::Les::none ? 0.0 : n.smagorinsky_constant;
+  options.eddy = n.les == cases::Les::vreman ? lbm::Eddy::vreman : lbm::Eddy::smagorinsky;
+  options.hrr_sigma = n.hrr_sigma;
   lbm::Air air = lbm::make_air(full_box(edge), surface, options);
   lbm::CollisionConstants constants;
   constants.tau0 = 0.505;
