@@ -213,6 +213,11 @@ void build_carriers(Simulation& s) {
   m.pressure_gradient = c.pressure_gradient;
   m.near_wall = c.near_wall;
   m.two_way = c.two_way;
+  const Numerics& n = s.description.numerics;
+  m.steps_per_exchange = n.coupling_interval;
+  m.steps_per_exchange_asleep =
+      n.skip.resting_exchange ? std::max(m.steps_per_exchange_asleep, n.coupling_interval) : n.coupling_interval;
+  m.carriers.integration.sleep = n.skip.sleeping_carriers;
   m.carriers_start = c.start;
   m.settling = c.fill.has_value();
 

@@ -281,7 +281,7 @@ void move_fines(const Models& models, std::int64_t steps, double interval, State
 /// limit.
 void carry_fines(const Models& models, bool now, State& s) {
   if (s.scalars.scalars() == 0 || !s.air) return;
-  if (!s.airborne) {
+  if (!s.airborne && models.idle_transport) {
     s.steps_since_scalars = 0;
     return;
   }
@@ -302,7 +302,9 @@ void carry_fines(const Models& models, bool now, State& s) {
   } catch (const std::runtime_error& e) {
     diverge("%s (t = %.6g s)", e.what(), s.time);
   }
-  s.steps_per_scalar_update = std::clamp(std::floor(lbm::max_steps(s.air->rows, s.fluxes, options.cfl)), 1.0, 64.0);
+  s.steps_per_scalar_update =
+      models.transport_steps ? std::clamp(std::floor(lbm::max_steps(s.air->rows, s.fluxes, options.cfl)), 1.0, 64.0)
+                             : 1.0;
   s.effort.scalar_steps += s.steps_since_scalars;
   s.steps_since_scalars = 0;
 }
@@ -326,7 +328,8 @@ void advance(const Models& models, double until, State& s) {
   // Without a lattice nothing ties the interval to whole steps: it ends where it is asked to.
   const double whole = steps * s.scale.dt;
   const double interval = !s.air && until > s.time ? std::min(whole, until - s.time) : whole;
-  if (resting && s.carriers.carriers.size() > 0) s.effort.exchanges_saved += steps / models.steps_per_exchange - 1;
+  if (resting && s.carriers.carriers.size() > 0)
+    s.effort.exchanges_saved += std::max(0, steps / models.steps_per_exchange - 1);
 
   if (s.air) {
     {

@@ -71,6 +71,8 @@ struct Models {
   lbm::ScalarOptions scalars;     // diffusivity is set from `diffusion` each step
   int steps_per_exchange = 4;     // air steps between two exchanges with moving carriers
   int steps_per_exchange_asleep = 16;
+  bool idle_transport = true;   // leave the transport out until fines are airborne
+  bool transport_steps = true;  // transport in longer steps than the exchange interval where the flow allows it
 };
 
 /// A carrier that left through an opening.

@@ -23,6 +23,9 @@ std::span<const Bench> benches() {
       Bench{"geometry", "STL to cells, distances beside VTK's", &bench_geometry},
       Bench{"kernel", "the air alone, beside the memory's bound", &bench_kernel},
       Bench{"dem", "carriers, beside LIGGGHTS where that is installed", &bench_dem},
+      Bench{"pareto", "run time against error over many settings", &bench_pareto},
+      Bench{"skip", "what is left out, put back in: time and change of the answer", &bench_skip},
+      Bench{"scaling", "cost as cells, carriers, scalars and triangles grow", &bench_scaling},
   };
   return list;
 }

@@ -30,6 +30,9 @@ std::span<const Bench> benches();
 nlohmann::json bench_geometry(const BenchArguments& a);
 nlohmann::json bench_kernel(const BenchArguments& a);
 nlohmann::json bench_dem(const BenchArguments& a);
+nlohmann::json bench_pareto(const BenchArguments& a);
+nlohmann::json bench_skip(const BenchArguments& a);
+nlohmann::json bench_scaling(const BenchArguments& a);
 
 /// Writes rows as CSV: a header of the keys of the first row in alphabetical order; strings hold no commas.
 /// Throws std::runtime_error if it cannot be written.
