@@ -150,7 +150,7 @@ void write_picture(const SurfaceFindings& f, const geometry::TriangleMesh& mesh,
       text += ",  narrowest gap " + as_length(r.narrowest_gap) + " = " + four_digits(r.narrowest_gap_cells) + " cells";
     }
   }
-  const output::Canvas canvas = output::geometry_picture(walls, {text, {}}, 1600, 1000, marks);
+  const output::Canvas canvas = output::geometry_picture(walls, {text, {}}, {}, 1600, 1000, marks);
   std::ofstream out(png, std::ios::binary);
   const std::string bytes = canvas.png();
   out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
