@@ -11,7 +11,7 @@
 
 #include "cases/read_case.hpp"
 #include "cases/search_path.hpp"
-#include "lbm/kernel.hpp"
+#include "lbm/isa.hpp"
 #include "tools/output/render.hpp"
 #include "tools/output/stats_file.hpp"
 #include "tools/output/vtk_series.hpp"
@@ -31,15 +31,10 @@ std::string processor() {
 }
 
 std::string instruction_set() {
-  switch (lbm::detect_isa()) {
-    case lbm::Isa::avx512:
-      return "avx512";
-    case lbm::Isa::avx2:
-      return "avx2";
-    case lbm::Isa::baseline:
-      break;
-  }
-  return "baseline";
+  const lbm::Isa isa = lbm::detect_isa(), best = lbm::hardware_isa();
+  std::string text = lbm::name(isa);
+  if (isa != best) text += std::string(" (PUFFIN_ISA; the processor offers ") + lbm::name(best) + ")";
+  return text;
 }
 
 /// A folder of its own that goes away with it.
