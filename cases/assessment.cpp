@@ -2,10 +2,12 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <stdexcept>
 
 #include "cases/inlet_profile.hpp"
+#include "cases/room.hpp"
 #include "cases/units.hpp"
 #include "cases/untagged_openings.hpp"
 #include "lbm/geometry/voxel_report.hpp"
@@ -100,6 +102,7 @@ Assessment assess(const Case& given, const Surface& s) {
     a.inlets.push_back({b.patch, area, speed, reynolds(c.air, speed, 4.0 * area / perimeter_of(s, b.patch))});
   }
   if (c.air.model == AirModel::lbm) {
+    require_room(c, s, std::numeric_limits<double>::infinity());
     a.reference_speed = reference_speed(c, area_of);
     a.lattice = lattice_numbers(c, cell_size(c.numerics, s.volume), a.reference_speed, area_of);
     const std::vector<std::string> openings = openings_of(c);

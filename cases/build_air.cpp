@@ -95,7 +95,11 @@ void build_lattice(const LatticeNumbers& numbers, Simulation& s) {
   for (const auto& name : openings_of(c))
     if (!is_periodic(c.air, name)) openings.push_back(name);
   if (!openings.empty()) options.openings = s.surface.marked(openings);
-  s.voxels = geometry::voxelize(*s.tree, s.dx, options, &s.pockets);
+  try {
+    s.voxels = geometry::voxelize(*s.tree, s.dx, options, &s.pockets);
+  } catch (const std::invalid_argument& e) {
+    throw geometry::GeometryError(e.what());
+  }
   geometry::refuse_buried(geometry::hidden_faces(*s.tree, s.voxels, options.openings));
 
   lbm::LinkGeometry links;

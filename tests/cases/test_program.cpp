@@ -135,6 +135,14 @@ TEST_F(Program, AGeneratedSurfaceCanBeVoxelized) {
   EXPECT_TRUE(std::filesystem::exists(folder_ / "voxels.vti"));
 }
 
+TEST_F(Program, TheDoctorNamesWhatIsWrongWithAMachine) {
+  setenv("TMPDIR", "/proc/nowhere", 1);
+  const Outcome o = puffin("doctor");
+  unsetenv("TMPDIR");
+  EXPECT_EQ(o.code, 6);
+  EXPECT_NE(o.out.find("set TMPDIR to a folder that can be written"), std::string::npos) << o.out;
+}
+
 TEST_F(Program, PlanSaysWhatIsSkippedAndWhy) {
   const Outcome o = puffin("plan " + std::string(PUFFIN_SOURCE_DIR) + "/cases/l-flow/case.toml --json");
   EXPECT_EQ(o.code, 0);

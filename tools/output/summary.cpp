@@ -119,7 +119,9 @@ Summary summary_of(const Json& json) {
 }
 
 Json to_json(const Summary& s) {
-  Json json = written(s);
+  Json json = Json::object();
+  json["format"] = format_version;
+  json.update(written(s));
   json["warnings"] = s.warnings;
   json["phases"] = Json::object();
   for (const auto& phase : s.phases) json["phases"][phase.name] = number(phase.seconds);
