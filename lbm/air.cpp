@@ -16,9 +16,6 @@ namespace puffin::lbm {
 
 using geometry::Vec3;
 
-namespace {}
-
-}  // namespace
 
 Parity Air::parity() const {
   return std::visit([](const auto& p) { return p.next; }, populations);
