@@ -73,10 +73,11 @@ void time_fields(auto& archive, Is<State> auto& state) {
           steps_per_scalar_update, airborne, effort, extremes);
 }
 
-/// The lattice belongs to the case; of the air only what moves.
+/// The lattice belongs to the case; of the air only what moves. What walls keep of their cells they find again from the
+/// populations before each collision.
 void air_fields(auto& archive, auto& air) {
   auto& [rows, links, boundaries, normal, options, populations, moments, force, run_flags, run_of_slot, les, gradients,
-         steps, limited, backflow] = air;
+         fluid, fluid_cells, partial, markers, wall_model, steps, limited, backflow] = air;
   archive(steps, limited, backflow);
   std::visit([&](auto& p) { archive(p.next, p.f); }, populations);
 }
