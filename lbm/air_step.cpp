@@ -197,13 +197,12 @@ void apply_links(const Drive& drive, Air& air) {
       [&]<class T>(Populations<T>& p) {
         const Parity last = p.next;
         cross_periodic_faces(air.links, last, p);
-        // A link writes a place of its own cell alone, and none that another link reads: any order gives the same.
+        // A link writes a place of its own cell alone, and none that another link reads. But an outlet reads the
+        // population at rest, to which a wall gives the cell's imbalance: openings come first.
         const ApplyLinks<T> apply(drive, air, p);
         std::vector<std::int64_t> backflow(air.rows.chunks().size(), 0);
-        for_each_chunk(air.rows, [&](int c, const Chunk&) {
-          apply.ready_walls(c, -1);
-          backflow[c] = apply.openings(c);
-        });
+        for_each_chunk(air.rows, [&](int c, const Chunk&) { backflow[c] = apply.openings(c); });
+        for_each_chunk(air.rows, [&](int c, const Chunk&) { apply.ready_walls(c, -1); });
         for (const std::int64_t cells : backflow) air.backflow += cells;
         end_step(last, p, air);
       },
@@ -232,8 +231,8 @@ KernelReport advance_air(const CollisionConstants& constants, const Drive& drive
         for_each_part([&](int part) {
           for (int c = begin_of(part); c < begin_of(part + 1); ++c) {
             reports[c] = collide(air.rows.chunks()[c]);
+            backflow[c] = apply.openings(c);  // before the walls, as in apply_links
             apply.ready_walls(c, begin_of(part));
-            backflow[c] = apply.openings(c);
           }
         });
         cross_periodic_faces(air.links, last, p);

@@ -36,6 +36,7 @@ class Batch {
       put(both, places, seen);
     } else if (joins && flags == 0 && pending_.end == 0 && 2 * left <= width) {
       pending_places_ = *places;
+      if (n == 0) --next_->run_count;  // no pack of this batch lies in the run
       pending_ = {nullptr, run.first + n, n, 0, left, Fit::beyond_end, flags};
     } else {
       put({places->from, run.first + n, n, 0, left, Fit::beyond_end, flags}, places, seen);

@@ -98,14 +98,12 @@ void reflect_group(const WallInput<T>& in, const WallGroup& group) {
     const T *out, *partner;
     T* back;
     const std::int32_t *out_at, *partner_at, *back_at;
-    P share;
   };
   Link link[18];
   const int count = group.count;
   const bool even = in.parity == Parity::even;
   const std::int32_t* const slot = in.places + group.place;
   int links = 0;
-  T sum = 0;
   for (std::uint32_t bits = group.directions; bits != 0; bits &= bits - 1, ++links) {
     const int i = __builtin_ctz(bits), o = d3q19::opposite(i);
     T* const f_i = in.f + i * in.stride;
@@ -113,24 +111,21 @@ void reflect_group(const WallInput<T>& in, const WallGroup& group) {
     const std::int32_t *const beyond = slot + (1 + 2 * links) * count, *const behind = beyond + count;
     // Places as in find_links.
     const bool own = ((group.far >> i & 1U) != 0) == even;
-    const T part = T(i < 7 ? 2 : 1);
-    link[links] = {even ? f_o : f_i,    own ? f_i : f_o,      even ? f_i : f_o, even ? slot : beyond,
-                   own ? slot : behind, even ? beyond : slot, P(part)};
-    sum += part;
+    link[links] = {even ? f_o : f_i,     own ? f_i : f_o,     even ? f_i : f_o,
+                   even ? slot : beyond, own ? slot : behind, even ? beyond : slot};
   }
-  const P each(T(1) / sum), speed(static_cast<T>(in.wall_speed));
+  const P speed(static_cast<T>(in.wall_speed));
   for (int n = 0; n < count; n += static_cast<int>(P::size())) {
-    P incoming[18], imbalance(T(0));
+    P imbalance(T(0));
     const float* partner = in.group_partner + group.coefficient + n;
     for (int k = 0; k < links; ++k) {
       const P out = gather(link[k].out, link[k].out_at + n);
       P change = load_float<T>(partner + k * count) * (gather(link[k].partner, link[k].partner_at + n) - out);
       if (group.moving) change = change + speed * load_float<T>(in.group_moving + group.coefficient + n + k * count);
-      incoming[k] = out + change;
       imbalance = imbalance - change;
+      scatter(out + change, link[k].back, link[k].back_at + n);
     }
-    imbalance = imbalance * each;
-    for (int k = 0; k < links; ++k) scatter(incoming[k] + link[k].share * imbalance, link[k].back, link[k].back_at + n);
+    scatter(gather(in.f, slot + n) + imbalance, in.f, slot + n);  // the population at rest takes the imbalance
   }
 }
 

@@ -4,8 +4,10 @@
 // A sweep goes through the chunks of cells in order. The links of a cell need what this cell, and for a wall near it
 // the cell behind, have sent out; so they can be applied as soon as the chunks of both are collided, long before the
 // whole sweep is. A second pass over the cells at walls, with its wait for memory, is saved. Wall cells that have no
-// row of their like are gathered into groups. The order changes no bit: a link writes a place of its own that no other
-// link and no collision of the same step reads.
+// row of their like are gathered into groups. The order changes no bit as long
+// as the openings of a cell come before its walls: an outlet reads the population at rest, which takes the imbalance of
+// the walls. All else that a link writes is a place of its own, read by no other link and no collision of the same
+// step.
 
 #include <cstdint>
 #include <vector>
