@@ -1,4 +1,5 @@
-// One exchange interval on one page. The order, and why it is this:
+// One exchange interval on one page. Long because the order of the physics stands here and nowhere else. The order, and
+// why it is this:
 //   air steps     with the carriers' reaction of the interval before (explicit, as the air is 1,000 times faster)
 //   interpolation of the air at the carriers' present places, through the same stencils that carried their reaction
 //   carriers      over the same interval, drag semi-implicit; what drag gave them is what the air will lose next
@@ -356,8 +357,7 @@ void follow_air(const Models& models, const Interval& interval, double until, St
     }
   }
   // The caller reads the air at `until`: with the forces of the walls as they belong to it.
-  if (computes_air(models, s) && s.time + interval.seconds >= until * (1.0 - 1e-12))
-    lbm::settle_walls(s.drive, *s.air);
+  if (computes_air(models, s) && s.time + interval.seconds >= until * (1.0 - 1e-12)) lbm::settle_walls(s.drive, *s.air);
   s.time += interval.seconds;
   move_fines(models, interval.steps, interval.seconds, s);
   carry_fines(models, s.time >= until * (1.0 - 1e-12), s);  // the caller reads them at `until`
