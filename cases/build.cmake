@@ -6,6 +6,7 @@ set(PUFFIN_BUILD_SOURCES
   build_fines.cpp
   check_boundaries.cpp
   initial_air.cpp
+  initial_disturbance.cpp
   inlet_profile.cpp
   opening.cpp
   point_field.cpp

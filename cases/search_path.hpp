@@ -15,6 +15,9 @@ std::span<const std::string> micromodel_directories();
 /// none, cases/verify of the source tree it was built from.
 std::filesystem::path verification_directory();
 
+/// Likewise the scenes of `puffin bench stability`.
+std::filesystem::path stability_directory();
+
 /// The file as given if it is there, else the one of that name in micromodel_directories(), else as given.
 std::filesystem::path found_micromodels(const std::filesystem::path& file);
 

@@ -21,6 +21,7 @@ using nlohmann::json;
 std::span<const Bench> benches() {
   static constexpr std::array list{
       Bench{"kernel", "the air alone, beside the memory's bound", &bench_kernel},
+      Bench{"stability", "what runs, is healed or diverges, over settings and speeds", &bench_stability},
   };
   return list;
 }
@@ -77,7 +78,9 @@ Command bench() {
             app.add_flag("--quick", a->quick, "a smaller set, in a minute or two");
             app.add_option("--cells", a->cells, "kernel: numbers of cells instead of the usual ones")
                 ->check(CLI::PositiveNumber);
-            app.add_option("--only", a->only, "pareto: this case alone, like P9; may be repeated")->type_name("ID");
+            app.add_option("--only", a->only,
+                           "pareto: this case alone, like P9; stability: this scene; may be repeated")
+                ->type_name("ID");
             app.add_option("--out", a->out, "a folder for the rows as CSV and JSON, and for figures");
             app.add_flag("--json", a->json, "one JSON object on stdout");
             return [a] { return puffin::tools::bench(*a); };

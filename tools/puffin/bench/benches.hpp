@@ -27,6 +27,7 @@ struct Bench {
 std::span<const Bench> benches();
 
 nlohmann::json bench_kernel(const BenchArguments& a);
+nlohmann::json bench_stability(const BenchArguments& a);
 
 /// Writes rows as CSV: a header of the keys of the first row in alphabetical order; strings hold no commas.
 /// Throws std::runtime_error if it cannot be written.
