@@ -18,6 +18,9 @@ std::filesystem::path verification_directory();
 /// Likewise the scenes of `puffin bench stability`.
 std::filesystem::path stability_directory();
 
+/// The cases of `puffin bench pareto`: share/puffin/bench of the installation, or cases/bench of the source tree.
+std::filesystem::path bench_directory();
+
 /// The file as given if it is there, else the one of that name in micromodel_directories(), else as given.
 std::filesystem::path found_micromodels(const std::filesystem::path& file);
 

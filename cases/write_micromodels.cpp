@@ -54,7 +54,7 @@ std::string keys(const PowerLaw& law, const std::string&) {
 }
 std::string keys(const TableLaw&, const std::string& file) {
   if (file.empty()) throw std::invalid_argument("a table law needs a CSV file beside the micro-model file");
-  return "file = " + quoted(file) + '\n';
+  return "file = " + quoted(file) + "\nmay_fall = true\n";
 }
 std::string keys(const WeibullLaw& law, const std::string&) {
   const auto& c = law.constants();

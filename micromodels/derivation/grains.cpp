@@ -20,6 +20,37 @@ double PairContact::stiffness(double overlap) const {
   return overlap > 0.0 ? 2.0 * modulus * std::sqrt(radius * overlap) : 0.0;
 }
 
+NormalForce normal_force(const PairContact& c, double overlap, Flattened& f) {
+  const double yields_at = std::pow(0.5 * std::numbers::pi * c.yield_pressure / c.modulus, 2) * c.radius;
+  const bool yielding = overlap > std::max(f.deepest, yields_at);
+  NormalForce n;
+  if (yielding) {
+    const double at_yield = 4.0 / 3.0 * c.modulus * std::sqrt(c.radius * yields_at) * yields_at;
+    const double slope = std::numbers::pi * c.yield_pressure * c.radius;
+    const double a2 = c.radius * std::min(overlap, c.radius);
+    n.load = at_yield + slope * (std::min(overlap, c.radius) - yields_at);
+    f.deepest = overlap;
+    f.radius = std::max(c.radius, 4.0 / 3.0 * c.modulus * a2 * std::sqrt(a2) / n.load);
+    f.offset = overlap - a2 / f.radius;
+    n.overlap = overlap - f.offset;
+    n.stiffness = std::max(slope, 2.0 * c.modulus * std::sqrt(a2));  // it may turn round in the next step
+    n.adhesion = c.pull * f.radius / c.radius;
+    return n;
+  }
+  const double radius = f.radius > 0.0 ? f.radius : c.radius;
+  n.overlap = overlap - f.offset;
+  n.adhesion = c.pull * radius / c.radius;
+  if (n.overlap > 0.0) {
+    const double root = std::sqrt(radius * n.overlap);
+    n.load = 4.0 / 3.0 * c.modulus * root * n.overlap;
+    n.stiffness = 2.0 * c.modulus * root;
+  } else {
+    const double reach = 1.0 - n.overlap / c.gap;
+    n.adhesion /= reach * reach;
+  }
+  return n;
+}
+
 PairContact pair_contact(const Surface& s, double radius_a, double radius_b, double mass_a, double mass_b, bool wall,
                          double adhesion) {
   const auto compliance = [](const Material& m) { return (1.0 - m.poisson * m.poisson) / m.youngs_modulus; };
@@ -32,6 +63,7 @@ PairContact pair_contact(const Surface& s, double radius_a, double radius_b, dou
   c.mass = 1.0 / (1.0 / mass_a + 1.0 / mass_b);
   c.pull = 4.0 * std::numbers::pi * s.surface_energy * c.radius * adhesion;
   c.gap = s.cutoff_gap;
+  c.yield_pressure = std::min(s.grains.yield_pressure, other.yield_pressure);
   const double l = std::log(s.restitution);
   c.damping = -2.0 * std::sqrt(5.0 / 6.0) * l / std::sqrt(l * l + std::numbers::pi * std::numbers::pi);
   return c;
@@ -53,12 +85,17 @@ double GrainSystem::overlap(int a, int b) const {
   return ga.radius + gb.radius - (ga.position - gb.position).norm();
 }
 
+double GrainSystem::dent(int a, int b) const {
+  const auto key = b < 0 ? std::pair(a, b) : std::pair(std::min(a, b), std::max(a, b));
+  const auto found = std::lower_bound(pairs_.begin(), pairs_.end(), key,  // they are found in this order
+                                      [](const Pair& x, const auto& k) { return std::pair(x.a, x.b) < k; });
+  return found != pairs_.end() && std::pair(found->a, found->b) == key ? found->flattened.offset : 0.0;
+}
+
 /// Pairs that can meet before something has moved by half the skin; springs are kept.
 void GrainSystem::find_pairs() {
   std::vector<Pair> old;
   old.swap(pairs_);
-  std::sort(old.begin(), old.end(),
-            [](const Pair& x, const Pair& y) { return std::pair(x.a, x.b) < std::pair(y.a, y.b); });
   const double infinite = std::numeric_limits<double>::infinity();
   const auto consider = [&](int a, int b) {
     if (overlap(a, b) < -skin_) return;
@@ -69,7 +106,10 @@ void GrainSystem::find_pairs() {
                            ga.adhesion * (gb ? gb->adhesion : 1.0))};
     const auto found = std::lower_bound(old.begin(), old.end(), std::pair(a, b),
                                         [](const Pair& x, const auto& key) { return std::pair(x.a, x.b) < key; });
-    if (found != old.end() && found->a == a && found->b == b) pair.spring = found->spring;
+    if (found != old.end() && found->a == a && found->b == b) {
+      pair.spring = found->spring;
+      pair.flattened = found->flattened;
+    }
     pairs_.push_back(pair);
   };
   const int n = static_cast<int>(grains_.size());
@@ -96,21 +136,24 @@ void GrainSystem::add_forces(Pair& pair, double dt) {
     relative -= gb.velocity;
     arms += gb.radius * gb.spin;
   }
-  if (depth < -40.0 * pair.law.gap) {
+  if (depth - pair.flattened.offset < -40.0 * pair.law.gap) {
     pair.spring.setZero();
     return;
   }
   relative -= arms.cross(normal);
   const double approach = -relative.dot(normal);
-  Vector3d force = pair.law.normal_force(depth, approach) * normal;
-  if (depth > 0.0) {
+  const NormalForce n = normal_force(pair.law, depth, pair.flattened);
+  Vector3d force = (n.load - n.adhesion) * normal;
+  if (n.overlap > 0.0) {
     if (!ga.carrier || (!wall && !grains_[b].carrier)) deepest_ = std::max(deepest_, depth);
+    force += pair.law.damping * std::sqrt(n.stiffness * pair.law.mass) * approach * normal;
     const Vector3d sliding = relative + approach * normal;
-    const double k = 8.0 * pair.law.shear * std::sqrt(pair.law.radius * depth);
+    const double contact_radius = 0.5 * n.stiffness / pair.law.modulus;  // of the elastic contact: S = 2 E* a
+    const double k = 8.0 * pair.law.shear * contact_radius;
     pair.spring += sliding * dt;
     pair.spring -= pair.spring.dot(normal) * normal;
     Vector3d tangential = -k * pair.spring - pair.law.damping * std::sqrt(k * pair.law.mass) * sliding;
-    const double limit = surface_.friction * 4.0 / 3.0 * pair.law.modulus * std::sqrt(pair.law.radius * depth) * depth;
+    const double limit = surface_.friction * n.load;
     if (const double size = tangential.norm(); size > limit) {
       tangential *= limit / size;
       pair.spring = -tangential / k;
@@ -119,12 +162,12 @@ void GrainSystem::add_forces(Pair& pair, double dt) {
     const Vector3d moment = -normal.cross(tangential);
     torque_[a] += ga.radius * moment;
     if (!wall) torque_[b] += grains_[b].radius * moment;
-    stiffest_ = std::max({stiffest_, pair.law.stiffness(depth) / pair.law.mass, k / pair.law.mass});
+    stiffest_ = std::max({stiffest_, n.stiffness / pair.law.mass, k / pair.law.mass});
   } else {
     pair.spring.setZero();
     // The fading adhesion has the slope 2 F0/d0 at contact.
-    stiffest_ = std::max(
-        stiffest_, 2.0 * pair.law.pull / (pair.law.gap * pair.law.mass) / std::pow(1.0 - depth / pair.law.gap, 3));
+    const double reach = 1.0 - n.overlap / pair.law.gap;
+    stiffest_ = std::max(stiffest_, 2.0 * n.adhesion / (pair.law.gap * pair.law.mass) / reach);
   }
   force_[a] += force;
   if (!wall) force_[b] -= force;

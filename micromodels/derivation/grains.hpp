@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <limits>
 #include <vector>
 
 namespace puffin::micromodels::derivation {
@@ -19,6 +20,8 @@ struct Grain {
 
 struct Material {
   double youngs_modulus = 0.0, poisson = 0.0;  // [Pa]
+  /// Largest mean pressure that a contact of the material bears, about its hardness [Pa]. Infinite: never yields.
+  double yield_pressure = std::numeric_limits<double>::infinity();
 };
 
 struct Surface {
@@ -32,14 +35,35 @@ struct Surface {
 /// Hertz contact of two bodies: repulsion (4/3) E* sqrt(R*) d^(3/2), adhesion F0 = 4 pi gamma R* (Derjaguin, Muller &
 /// Toporov 1975), which fades with the gap h as F0/(1 + h/d0)^2 (Hamaker with the force limited at d0).
 struct PairContact {
-  double modulus = 0.0, shear = 0.0, radius = 0.0, mass = 0.0;  // E*, G* [Pa], R* [m], m* [kg]
-  double pull = 0.0, gap = 0.0;                                 // F0 [N], d0 [m]
-  double damping = 0.0;                                         // 2 sqrt(5/6) |beta| (Tsuji et al. 1992)
+  double modulus = 0.0, shear = 0.0, radius = 0.0, mass = 0.0;      // E*, G* [Pa], R* [m], m* [kg]
+  double pull = 0.0, gap = 0.0;                                     // F0 [N], d0 [m]
+  double damping = 0.0;                                             // 2 sqrt(5/6) |beta| (Tsuji et al. 1992)
+  double yield_pressure = std::numeric_limits<double>::infinity();  // p_y of the softer body [Pa]
 
-  /// Repulsion less adhesion [N] at an overlap [m] (negative: a gap) that grows at `rate` [m/s].
+  /// Hertz repulsion less adhesion [N] at an overlap [m] (negative: a gap) that grows at `rate` [m/s].
   double normal_force(double overlap, double rate) const;
   double stiffness(double overlap) const;  // [N/m] of the Hertz part
 };
+
+/// What yielding has left behind at a contact: it parts at the overlap `offset` from surfaces of relative radius
+/// `radius`, and is elastic up to `deepest`.
+///
+/// Loading: Hertz up to d_y = (pi p_y/(2 E*))^2 R*, where the pressure in the middle is p_y; beyond, the contact of
+/// radius a^2 = R* d bears p_y more on every new part of it, F = F_y + pi p_y R* (d - d_y); deeper than R* (a sphere
+/// pressed in to its equator) it bears no more. Unloading and loading again: Hertz of the flattened radius
+/// R_p = 4 E* a^3/(3 F) at the deepest point, from d_p = d - a^2/R_p. The adhesion is 4 pi gamma R_p: what has been
+/// flattened sticks better.
+/// Source: C. Thornton & Z. Ning, Powder Technol. 99, 154 (1998); the adhesion is DMT's as in PairContact, not JKR's.
+struct Flattened {
+  double radius = 0.0, offset = 0.0, deepest = 0.0;  // [m]; radius 0: nothing has yielded yet
+};
+/// Normal force [N] without dashpot, split: `load` > 0 pushes apart. `flattened` grows with an overlap deeper than
+/// ever.
+struct NormalForce {
+  double load = 0.0, adhesion = 0.0;      // [N]
+  double stiffness = 0.0, overlap = 0.0;  // [N/m] of the load; of the surfaces as they now are [m], negative: a gap
+};
+NormalForce normal_force(const PairContact& contact, double overlap, Flattened& flattened);
 
 /// radius_b, mass_b infinite: the wall, with the wall's moduli if `wall`.
 PairContact pair_contact(const Surface& surface, double radius_a, double radius_b, double mass_a, double mass_b,
@@ -62,7 +86,10 @@ class GrainSystem {
   /// Overlap of two grains [m]; b = -1: with the wall.
   double overlap(int a, int b) const;
   /// Whether two grains (b = -1: the wall) attract or push each other: gap below 5 d0.
-  bool touch(int a, int b) const { return overlap(a, b) > -5.0 * surface_.cutoff_gap; }
+  bool touch(int a, int b) const {
+    const double gap = -overlap(a, b), reach = 5.0 * surface_.cutoff_gap;
+    return gap < reach && gap + dent(a, b) < reach;
+  }
   double deepest_fine_overlap() const { return deepest_; }  // so far [m]
 
  private:
@@ -70,7 +97,9 @@ class GrainSystem {
     int a, b;  // b = -1: wall
     PairContact law;
     Vector3d spring = Vector3d::Zero();
+    Flattened flattened;
   };
+  double dent(int a, int b) const;  // overlap at which a contact that has yielded parts [m]
   void find_pairs();
   void add_forces(Pair& pair, double dt);
 

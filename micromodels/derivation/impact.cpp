@@ -9,6 +9,7 @@
 #include <string>
 
 #include "micromodels/derivation/coat.hpp"
+#include "micromodels/derivation/flight.hpp"
 #include "micromodels/derivation/one_fine.hpp"
 
 namespace puffin::micromodels::derivation {
@@ -29,11 +30,6 @@ CoatedCarrier coat(const Scene& scene, std::uint64_t seed) {
   for (int n = 0; n < scene.fines; ++n)
     c.adhesion.push_back(scene.spread > 0.0 ? std::exp(scene.spread * normal(random)) : 1.0);
   return c;
-}
-
-PairContact on_carrier(const Scene& s, double adhesion) {
-  return pair_contact(s.surface, 0.5 * s.fine_diameter, 0.5 * s.carrier_diameter, fine_mass(s), carrier_mass(s), false,
-                      adhesion);
 }
 
 /// How far carrier and obstacle approach each other beyond first touch [m], generously: fines are softer than carriers.
@@ -93,36 +89,6 @@ void set_apart(std::vector<Grain>& grains, std::size_t count, bool wall, double 
   for (std::size_t a = 0; a < count; ++a) grains[a].position.z() += high;
 }
 
-/// What meets what after the contact, in closed form.
-struct Flight {
-  const Scene& s;
-  double carrier_speed = 0.0, other_speed = 0.0;  // upwards [m/s]
-  double capture_carrier = 0.0, capture_other = 0.0;
-
-  Flight(const Scene& scene, double up, double other) : s(scene), carrier_speed(up), other_speed(other) {
-    const double fine = 0.5 * s.fine_diameter;
-    capture_carrier = capture_speed(on_carrier(s, 1.0));
-    capture_other = s.target == Partner::wall
-                        ? capture_speed(pair_contact(s.surface, fine, std::numeric_limits<double>::infinity(),
-                                                     fine_mass(s), std::numeric_limits<double>::infinity(), true, 1.0))
-                        : capture_carrier;
-  }
-  void land(double up, Outcome& o) const {
-    const double closing = other_speed - up;
-    if (closing <= 0.0) return meet_carrier(up, o);
-    if (closing < capture_other) {
-      ++(s.target == Partner::wall ? o.to_wall : o.redeposited);
-      return;
-    }
-    const double e = s.surface.restitution * std::sqrt(1.0 - std::pow(capture_other / closing, 2));
-    meet_carrier(other_speed + e * closing, o);
-  }
-  void meet_carrier(double up, Outcome& o) const {
-    const double closing = up - carrier_speed;
-    ++(closing > 0.0 && closing < capture_carrier ? o.redeposited : o.detached);
-  }
-};
-
 /// The fines that were not resolved, from the motion of their carrier.
 void follow_the_rest(const Scene& s, const Body& body, const Motion& motion, const Flight& flight, Outcome& o) {
   const double arm = 0.5 * (s.carrier_diameter + s.fine_diameter), mf = fine_mass(s);
@@ -148,7 +114,7 @@ void follow_the_rest(const Scene& s, const Body& body, const Motion& motion, con
         }
       }
     if (lift) {
-      flight.land((lift->velocity + arm * lift->spin.cross(n)).z(), o);
+      flight.land((lift->velocity + arm * lift->spin.cross(n)).z(), lift->height + arm * n.z(), o);
       continue;
     }
     const Vector3d along = change + arm * motion.back().spin.cross(n);
@@ -172,7 +138,8 @@ void count_resolved(const Scene& s, const GrainSystem& system, const Body& body,
     else if (system.touch(grain, other))
       ++(s.target == Partner::wall ? o.to_wall : o.redeposited);
     else
-      flight.land(system.grains()[static_cast<std::size_t>(grain)].velocity.z(), o);
+      flight.land(system.grains()[static_cast<std::size_t>(grain)].velocity.z(),
+                  system.grains()[static_cast<std::size_t>(grain)].position.z(), o);
   }
 }
 
@@ -189,6 +156,10 @@ bool parted(const GrainSystem& system, int other) {
 }  // namespace
 
 double carrier_mass(const Scene& s) { return pi / 6.0 * s.carrier_density * std::pow(s.carrier_diameter, 3); }
+PairContact on_carrier(const Scene& s, double adhesion) {
+  return pair_contact(s.surface, 0.5 * s.fine_diameter, 0.5 * s.carrier_diameter, fine_mass(s), carrier_mass(s), false,
+                      adhesion);
+}
 double fine_mass(const Scene& s) { return pi / 6.0 * s.fine_density * std::pow(s.fine_diameter, 3); }
 
 void check(const Scene& s) {
@@ -205,10 +176,13 @@ void check(const Scene& s) {
   for (const Material& m : {s.surface.grains, s.surface.wall}) {
     require(positive(m.youngs_modulus), "Young's moduli must be > 0");
     require(m.poisson >= 0.0 && m.poisson <= 0.5, "Poisson's ratios must lie in [0, 0.5]");
+    require(m.yield_pressure > 0.0, "yield pressures must be > 0");
   }
   require(positive(s.surface.surface_energy) && positive(s.surface.cutoff_gap),
           "surface_energy and cutoff_gap must be > 0");
   require(s.surface.restitution > 0.0 && s.surface.restitution <= 1.0, "restitution must lie in (0, 1]");
+  require(std::isfinite(s.air_viscosity) && s.air_viscosity >= 0.0, "the air's viscosity must be >= 0");
+  require(positive(s.mean_free_path), "the mean free path must be > 0");
   require(std::isfinite(s.surface.friction) && s.surface.friction >= 0.0, "friction must be >= 0");
 }
 
@@ -242,7 +216,7 @@ Outcome impact(const Scene& s, double speed, double angle, std::uint64_t seed, R
   double since_parted = 0.0;
   while (system.time() < patience && since_parted < 3e-8) {
     const double dt = system.step(2e-9);
-    recorder.add(dt, system.acceleration(0), system.grains()[0].velocity, system.grains()[0].spin);
+    recorder.add(dt, system.acceleration(0), system.grains()[0]);
     since_parted = parted(system, other) ? since_parted + dt : 0.0;
   }
   const Motion motion = recorder.finish();

@@ -17,6 +17,7 @@ struct Scene {
   double spread = 0.0;  // standard deviation of ln(adhesion of a fine)
   Partner target = Partner::wall;
   Surface surface;
+  double air_viscosity = 1.82e-5, mean_free_path = 0.067e-6;  // [Pa s], [m]; between carrier and wall. 0: vacuum
 };
 
 /// Throws std::invalid_argument, naming the value, unless sizes, moduli, densities and gamma are positive, 0 <= nu <=
@@ -24,6 +25,8 @@ struct Scene {
 void check(const Scene& scene);
 double carrier_mass(const Scene& scene);  // without fines [kg]
 double fine_mass(const Scene& scene);     // [kg]
+/// Contact of a fine whose adhesion is `adhesion` times the median with its carrier.
+PairContact on_carrier(const Scene& scene, double adhesion);
 
 /// Fines of one carrier after the impact; they add up to Scene::fines.
 struct Outcome {
@@ -51,9 +54,8 @@ enum class Resolve {
 /// its contact vibrates), and applied to each fine by the part of the deceleration, and of the spin, that pulls it
 /// outwards. A fine that is not lifted keeps 5/7 of its velocity along the surface (it rolls) and leaves if m_f v^2/(R
 /// + R_f) exceeds its adhesion. It neglects the reaction of these fines on the carrier beyond their mass, fines that
-/// hit each other, and their wandering during the impact. After the contact, fines fly freely: they stick to what they
-/// meet below the capture speed of Thornton & Ning (Powder Technol. 99 (1998) 154), else they bounce; the air between
-/// is left out. Materials are elastic but for the dashpot: no yielding. Throws std::invalid_argument for a bad scene,
+/// hit each other, and their wandering during the impact. After the contact, fines fly on (flight.hpp): they stick to
+/// what they meet below the capture speed, else they bounce. Throws std::invalid_argument for a bad scene,
 /// speed or angle.
 Outcome impact(const Scene& scene, double speed, double angle, std::uint64_t seed, Resolve resolve = Resolve::contact);
 

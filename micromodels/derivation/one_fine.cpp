@@ -26,11 +26,12 @@ bool lifts_off(PairContact contact, double pull, double mass, const Motion& moti
 
 }  // namespace
 
-void MotionRecorder::add(double dt, const Vector3d& acceleration, const Vector3d& velocity, const Vector3d& spin) {
+void MotionRecorder::add(double dt, const Vector3d& acceleration, const Grain& carrier) {
   now_.duration += dt;
   now_.acceleration += acceleration * dt;
-  now_.velocity = velocity;
-  now_.spin = spin;
+  now_.velocity = carrier.velocity;
+  now_.spin = carrier.spin;
+  now_.height = carrier.position.z();
   if (now_.duration < interval_) return;
   now_.acceleration /= now_.duration;
   motion_.push_back(now_);

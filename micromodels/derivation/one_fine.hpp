@@ -12,13 +12,14 @@ struct MotionSample {
   double duration = 0.0;                                          // [s]
   Vector3d acceleration = Vector3d::Zero();                       // mean [m/s^2]
   Vector3d velocity = Vector3d::Zero(), spin = Vector3d::Zero();  // at its end
+  double height = 0.0;                                            // of its centre, at its end [m]
 };
 using Motion = std::vector<MotionSample>;
 
 class MotionRecorder {
  public:
   explicit MotionRecorder(double interval) : interval_(interval) {}  // [s]
-  void add(double dt, const Vector3d& acceleration, const Vector3d& velocity, const Vector3d& spin);
+  void add(double dt, const Vector3d& acceleration, const Grain& carrier);
   Motion finish();
 
  private:

@@ -28,15 +28,23 @@ using nlohmann::json;
 
 struct DeriveArguments {
   std::string energy, carrier_diameter = "70 um", fine_diameter = "1.9 um", carrier_density = "1520 kg/m^3",
-                      fine_density = "1520 kg/m^3", modulus = "24 GPa", wall_modulus = "2.5 GPa", gap = "0.4 nm";
+                      fine_density = "1520 kg/m^3", modulus = "24 GPa", wall_modulus = "2.5 GPa", gap = "0.4 nm",
+                      yield = "0.9 GPa", wall_yield = "0.15 GPa";
   double poisson = 0.3, wall_poisson = 0.35, restitution = 0.7, friction = 0.3, spread = 0.0;
-  int fines = 2000, patches = 0, impacts = 200, threads = 0;
+  int fines = 2000, patches = 0, impacts = 200, elsewhere = 60, threads = 0;
   std::uint64_t seed = 1;
   std::vector<double> speeds, angles{90.0}, slips{20.0, 40.0, 60.0, 80.0};
   std::vector<std::string> targets{"wall", "carrier"};
   std::filesystem::path out;
+  std::string law = "power";
   bool full = false, as_json = false;
 };
+
+/// "none": elastic at any pressure.
+double yield_pressure(const std::string& text, const char* option) {
+  return text == "none" ? std::numeric_limits<double>::infinity()
+                        : positive_quantity(text, cases::unit::pressure, option);
+}
 
 Scene scene_of(const DeriveArguments& a, Partner target) {
   Scene s;
@@ -44,8 +52,10 @@ Scene scene_of(const DeriveArguments& a, Partner target) {
   s.fine_diameter = positive_quantity(a.fine_diameter, cases::unit::length, "--fine-diameter");
   s.carrier_density = positive_quantity(a.carrier_density, cases::unit::density, "--carrier-density");
   s.fine_density = positive_quantity(a.fine_density, cases::unit::density, "--fine-density");
-  s.surface.grains = {positive_quantity(a.modulus, cases::unit::pressure, "--modulus"), a.poisson};
-  s.surface.wall = {positive_quantity(a.wall_modulus, cases::unit::pressure, "--wall-modulus"), a.wall_poisson};
+  s.surface.grains = {positive_quantity(a.modulus, cases::unit::pressure, "--modulus"), a.poisson,
+                      yield_pressure(a.yield, "--yield-pressure")};
+  s.surface.wall = {positive_quantity(a.wall_modulus, cases::unit::pressure, "--wall-modulus"), a.wall_poisson,
+                    yield_pressure(a.wall_yield, "--wall-yield-pressure")};
   s.surface.surface_energy = positive_quantity(a.energy, cases::unit::surface_energy, "--surface-energy");
   s.surface.cutoff_gap = positive_quantity(a.gap, cases::unit::length, "--cutoff-gap");
   s.surface.restitution = a.restitution;
@@ -56,8 +66,8 @@ Scene scene_of(const DeriveArguments& a, Partner target) {
   return s;
 }
 
-/// Speeds around the threshold of the surrogate, which softer contacts through fines shift upwards a little.
-std::vector<double> default_speeds(const Scene& s) {
+/// Of the surrogate: fines between carrier and wall soften the contact and shift it upwards.
+double bare_threshold(const Scene& s) {
   micromodels::LiftOffLaw::Constants c;
   c.partner = s.target;
   c.carrier_diameter = s.carrier_diameter;
@@ -66,9 +76,13 @@ std::vector<double> default_speeds(const Scene& s) {
   c.youngs_modulus = s.surface.grains.youngs_modulus, c.poisson = s.surface.grains.poisson;
   c.wall_youngs_modulus = s.surface.wall.youngs_modulus, c.wall_poisson = s.surface.wall.poisson;
   c.surface_energy = s.surface.surface_energy;
-  const double threshold = micromodels::LiftOffLaw(c).threshold();
+  return micromodels::LiftOffLaw(c).threshold();
+}
+
+std::vector<double> default_speeds(double threshold) {
   std::vector<double> speeds;
-  for (const double part : {0.3, 0.5, 0.7, 0.9, 1.0, 1.1, 1.2, 1.3, 1.4, 1.55, 1.75, 2.0, 2.4, 3.0, 4.0, 5.5, 7.5})
+  for (const double part :
+       {0.3, 0.5, 0.7, 0.9, 1.1, 1.25, 1.4, 1.55, 1.7, 1.85, 2.0, 2.2, 2.45, 2.8, 3.3, 4.0, 5.0, 6.5})
     speeds.push_back(part * threshold);
   return speeds;
 }
@@ -81,17 +95,22 @@ struct Mechanism {
   double half = 0.0;
 };
 
-/// Overlaps beyond the fine's radius are no contacts any more.
-bool sound(const DerivedPoint& p) { return p.deepest < 1.0; }
+/// Elastic overlaps beyond the fine's radius are no contacts any more; where walls yield, a fine can be pressed in
+/// whole.
+bool sound(const DerivedPoint& p, const Scene& s) {
+  return p.deepest < (std::isfinite(s.surface.wall.yield_pressure) ? 2.0 : 1.0);
+}
 
 Mechanism derive(const DeriveArguments& a, Partner target) {
   Mechanism m;
   m.scene = scene_of(a, target);
-  const std::vector<double> speeds = a.speeds.empty() ? default_speeds(m.scene) : a.speeds;
+  const double bare = bare_threshold(m.scene);
+  const std::vector<double> speeds = a.speeds.empty() ? default_speeds(bare) : a.speeds;
   for (const double angle : a.angles)
     for (const double speed : speeds) {
-      m.points.push_back(
-          derive_point(m.scene, speed, angle, a.impacts, a.seed, a.full ? Resolve::all : Resolve::contact));
+      const bool steep = angle == a.angles.front() && speed > 1.05 * bare && speed < 2.5 * bare;
+      m.points.push_back(derive_point(m.scene, speed, angle, steep ? a.impacts : std::min(a.impacts, a.elsewhere),
+                                      a.seed, a.full ? Resolve::all : Resolve::contact));
       const DerivedPoint& p = m.points.back();
       char line[200];
       std::snprintf(line, sizeof line,
@@ -99,7 +118,7 @@ Mechanism derive(const DeriveArguments& a, Partner target) {
                     target == Partner::wall ? "wall   " : "carrier", speed, angle, p.detached, p.detached_error,
                     p.attached, p.deepest, p.seconds);
       log_info(line);
-      if (angle == a.angles.front() && sound(p)) m.fitted.push_back(p);
+      if (angle == a.angles.front() && sound(p, m.scene)) m.fitted.push_back(p);
     }
   m.detach = fit_power(detached_points(m.fitted, m.scene.fines));
   if (target == Partner::wall) m.attach = fit_power(attached_points(m.fitted, m.scene.fines));
@@ -108,7 +127,7 @@ Mechanism derive(const DeriveArguments& a, Partner target) {
 }
 
 std::string constants_text(const PowerFit& fit) {
-  std::string out;
+  std::string out = "Power law in two branches, fitted to the points head on:\n";
   for (std::size_t k = 0; k < 5; ++k) {
     char line[120];
     std::snprintf(line, sizeof line, "A%zu = %.6g (95 %%: %.4g to %.4g)\n", k, fit.A[k].value, fit.A[k].low,
@@ -124,10 +143,13 @@ std::string constants_text(const PowerFit& fit) {
 
 std::string comment_of(const DeriveArguments& a, const Mechanism& m, const PowerFit& fit, bool detach) {
   double seconds = 0.0;
-  for (const auto& p : m.points) seconds += p.seconds;
+  int impacts = 0;
+  for (const auto& p : m.points) seconds += p.seconds, impacts += p.impacts;
   char line[300];
-  std::snprintf(line, sizeof line, "%zu speeds, %d seeded impacts each, %.0f s of wall clock.\n", m.fitted.size(),
-                a.impacts, seconds);
+  std::snprintf(line, sizeof line,
+                "%zu speeds head on, %d seeded impacts each where the law is steep; %d impacts in all, %.0f s of wall "
+                "clock.\n",
+                m.fitted.size(), a.impacts, impacts, seconds);
   std::string out = line + constants_text(fit);
   if (detach) {
     std::snprintf(line, sizeof line,
@@ -145,6 +167,35 @@ void write_table(const std::filesystem::path& file, const Mechanism& m) {
     csv.append({p.speed, p.angle, p.detached, p.detached_error, p.attached, p.attached_error, p.rolled, p.redeposited,
                 static_cast<double>(p.impacts), p.rebound, p.deepest, p.peak});
   csv.flush();
+}
+
+/// The points themselves as a law, with every angle; beside the micro-model file as a table of its own.
+micromodels::TableLaw tabulate(const DeriveArguments& a, const Mechanism& m, const std::string& mechanism,
+                               double DerivedPoint::*value, double DerivedPoint::*error, micromodels::Validity valid,
+                               std::map<std::string, std::string>& files) {
+  std::vector<double> angles = a.angles, speeds;
+  std::sort(angles.begin(), angles.end());
+  std::vector<DerivedPoint> points;
+  for (const DerivedPoint& p : m.points)
+    if (sound(p, m.scene)) points.push_back(p);
+  std::sort(points.begin(), points.end(),
+            [](const auto& x, const auto& y) { return x.speed != y.speed ? x.speed < y.speed : x.angle < y.angle; });
+  for (std::size_t k = 0; k + angles.size() <= points.size(); k += angles.size()) {
+    if (points[k + angles.size() - 1].speed != points[k].speed) break;  // not sound at every angle: ends here
+    speeds.push_back(points[k].speed);
+  }
+  points.resize(speeds.size() * angles.size());
+  auto file = a.out;
+  file.replace_filename(a.out.stem().string() + "-" + mechanism + ".csv");
+  files[mechanism] = file.filename().string();
+  output::CsvFile csv(file, {"speed", "angle", "fraction", "error"});
+  std::vector<double> values;
+  for (const DerivedPoint& p : points) {
+    csv.append({p.speed, p.angle, p.*value, p.*error});
+    values.push_back(p.*value);
+  }
+  csv.flush();
+  return micromodels::TableLaw(speeds, angles, values, true, valid);
 }
 
 std::string drag_comment(const DeriveArguments& a, const Scene& s, json& rows) {
@@ -198,6 +249,9 @@ int derive_set(const DeriveArguments& a) {
   models.label = micromodels::Label::derived;
   models.source = "resolved impacts of one coated carrier (docs/micromodels.md)";
   std::map<std::string, std::string> comments;
+  std::map<std::string, std::string> files;
+  const bool tables = a.law == "table";
+  if (tables && a.out.empty()) throw std::invalid_argument("--law table needs --out: tables stand beside the file");
   std::vector<output::Curve> data;
   json j;
   std::optional<Scene> scene;
@@ -213,6 +267,14 @@ int derive_set(const DeriveArguments& a) {
       models.wall_attach = micromodels::PowerLaw(m.attach.law().constants(), valid);
       comments["wall_attach"] = comment_of(a, m, m.attach, false);
     }
+    if (tables) {
+      const std::string key = wall ? "wall_detach" : "particle_detach";
+      (wall ? models.wall_detach : models.particle_detach) =
+          tabulate(a, m, key, &DerivedPoint::detached, &DerivedPoint::detached_error, valid, files);
+      if (wall)
+        models.wall_attach =
+            tabulate(a, m, "wall_attach", &DerivedPoint::attached, &DerivedPoint::attached_error, valid, files);
+    }
     if (!a.out.empty()) {
       auto table = a.out;
       write_table(table.replace_filename(a.out.stem().string() + "-" + target + ".csv"), m);
@@ -227,15 +289,16 @@ int derive_set(const DeriveArguments& a) {
   comments["drag_detach"] = drag_comment(a, *scene, drag);
   j["held_in_flow"] = drag;
   char head[600];
-  std::snprintf(
-      head, sizeof head,
-      "Derived by puffin micromodel derive: %d fines of %s on a carrier of %s, %s, surface energy %s,\n"
-      "E = %s, nu = %g; wall E = %s, nu = %g; restitution %g, friction %g, spread of the adhesion %g, seed %llu.",
-      a.fines, a.fine_diameter.c_str(), a.carrier_diameter.c_str(), a.patches > 0 ? "in patches" : "uniformly spread",
-      a.energy.c_str(), a.modulus.c_str(), a.poisson, a.wall_modulus.c_str(), a.wall_poisson, a.restitution, a.friction,
-      a.spread, static_cast<unsigned long long>(a.seed));
+  std::snprintf(head, sizeof head,
+                "Derived by puffin micromodel derive: %d fines of %s on a carrier of %s, %s, surface energy %s,\n"
+                "E = %s, nu = %g, yield pressure %s; wall E = %s, nu = %g, yield pressure %s;\n"
+                "restitution %g, friction %g, spread of the adhesion %g, seed %llu.",
+                a.fines, a.fine_diameter.c_str(), a.carrier_diameter.c_str(),
+                a.patches > 0 ? "in patches" : "uniformly spread", a.energy.c_str(), a.modulus.c_str(), a.poisson,
+                a.yield.c_str(), a.wall_modulus.c_str(), a.wall_poisson, a.wall_yield.c_str(), a.restitution,
+                a.friction, a.spread, static_cast<unsigned long long>(a.seed));
   comments[""] = head;
-  const std::string text = cases::write_micromodels(models, comments);
+  const std::string text = cases::write_micromodels(models, comments, files);
   if (!a.out.empty()) {
     output::write_whole(a.out, text);
     auto curves = law_curves(models, plot_range(models));
@@ -260,6 +323,8 @@ Action micromodel_derive(CLI::App& app) {
       ->check(CLI::Range(1.0, 90.0));
   app.add_option("--slip-speeds", a->slips, "of a carrier held in a flow [m/s]")->check(CLI::PositiveNumber);
   app.add_option("--impacts", a->impacts, "seeded impacts a point")->check(CLI::Range(2, 100000));
+  app.add_option("--impacts-elsewhere", a->elsewhere, "where the law is flat, and at other angles than the first")
+      ->check(CLI::Range(2, 100000));
   app.add_option("--fines", a->fines, "on the carrier")->check(CLI::Range(1, 20000));
   app.add_option("--patches", a->patches, "0: a uniform coat")->check(CLI::NonNegativeNumber);
   app.add_option("--spread", a->spread, "standard deviation of ln(adhesion of a fine)")->check(CLI::NonNegativeNumber);
@@ -272,11 +337,16 @@ Action micromodel_derive(CLI::App& app) {
   app.add_option("--poisson", a->poisson);
   app.add_option("--wall-modulus", a->wall_modulus)->type_name("PRESSURE");
   app.add_option("--wall-poisson", a->wall_poisson);
+  app.add_option("--yield-pressure", a->yield, "of carrier and fines: largest mean pressure of a contact, or none")
+      ->type_name("PRESSURE");
+  app.add_option("--wall-yield-pressure", a->wall_yield, "likewise of the wall")->type_name("PRESSURE");
   app.add_option("--cutoff-gap", a->gap)->type_name("LENGTH");
   app.add_option("--restitution", a->restitution);
   app.add_option("--friction", a->friction);
   app.add_option("--seed", a->seed);
   app.add_option("--threads", a->threads);
+  app.add_option("--law", a->law, "power (fitted) or table: the points themselves, with every angle")
+      ->check(CLI::IsMember({"power", "table"}));
   app.add_flag("--full", a->full, "resolve every fine: slow, for small coats");
   app.add_option("--out", a->out, "the micro-model file; a plot and tables are put beside it")->type_name("FILE.toml");
   app.add_flag("--json", a->as_json, "one JSON object on stdout");
