@@ -356,8 +356,7 @@ void follow_air(const Models& models, const Interval& interval, double until, St
     }
   }
   // The caller reads the air at `until`: with the forces of the walls as they belong to it.
-  if (computes_air(models, s) && s.time + interval.seconds >= until * (1.0 - 1e-12))
-    lbm::settle_walls(s.drive, *s.air);
+  if (computes_air(models, s) && s.time + interval.seconds >= until * (1.0 - 1e-12)) lbm::settle_walls(s.drive, *s.air);
   s.time += interval.seconds;
   move_fines(models, interval.steps, interval.seconds, s);
   carry_fines(models, s.time >= until * (1.0 - 1e-12), s);  // the caller reads them at `until`
