@@ -16,6 +16,7 @@
 #include "coupling/volume_fraction.hpp"
 #include "dem/advance.hpp"
 #include "dem/open_contacts.hpp"
+#include "lbm/eddy_diffusion.hpp"
 
 namespace puffin::coupling {
 
@@ -261,9 +262,12 @@ void move_fines(const Models& models, std::int64_t steps, double interval, State
     s.release.by_contacts(s.events.begun, counted_from(models, s), s.carriers.carriers, *models.fines, s.cells, s.fines,
                           s.scalars);
     const auto& c = s.carriers.carriers;
+    if (models.regain) pick_up_from_walls(s.events.begun, counted_from(models, s), c, *models.regain, s.fines);
     std::vector<double> slip(c.size());
     for (std::size_t p = 0; p < c.size(); ++p) slip[p] = (s.loads[p].air_velocity - c.velocity[p]).norm();
     s.release.by_drag(s.stencils, slip, interval, c, *models.fines, s.fines, s.scalars);
+    if (models.regain && s.airborne)
+      reattach(s.stencils, slip, interval, s.scale.dx, c, *models.regain, s.fines, s.scalars);
     const double after = s.fines.to_air[0].value() + s.fines.to_air[1].value() + s.fines.to_air[2].value();
     s.airborne = s.airborne || after > before;
   }
@@ -286,7 +290,17 @@ void carry_fines(const Models& models, bool now, State& s) {
   lbm::ScalarOptions options = models.scalars;
   for (std::size_t k = 0; k < options.scalar.size(); ++k)
     options.scalar[k].diffusivity = s.scale.viscosity_lu(models.diffusion[k]);
-  if (computes_air(models, s)) lbm::find_mass_fluxes(*s.air, s.routes, s.fluxes);  // a frozen field's stay
+  if (computes_air(models, s)) {  // a frozen field's stay
+    lbm::find_mass_fluxes(*s.air, s.routes, s.fluxes);
+    if (models.turbulent_schmidt > 0.0)
+      lbm::find_eddy_diffusion(*s.air, s.scale.relaxation_time(models.air.viscosity / models.air.density),
+                               models.turbulent_schmidt, s.fluxes);
+    if (models.drift) {
+      update_drift(s.air->rows, s.fluxes, s.scale, *models.drift,
+                   static_cast<double>(s.steps_since_scalars) * s.scale.dt, s.fines_drift);
+      add_drift(s.air->rows, s.routes, s.scale, *models.drift, s.fines_drift, s.fluxes);
+    }
+  }
   try {
     lbm::advance_scalars(s.air->rows, s.fluxes, static_cast<double>(s.steps_since_scalars), options, s.scalars,
                          s.budget);
