@@ -11,6 +11,7 @@
 #include "cases/opening.hpp"
 #include "cases/point_field.hpp"
 #include "cases/table_file.hpp"
+#include "lbm/geometry/voxel_errors.hpp"
 
 namespace puffin::cases {
 
@@ -94,7 +95,12 @@ void build_lattice(const LatticeNumbers& numbers, Simulation& s) {
   for (const auto& name : openings_of(c))
     if (!is_periodic(c.air, name)) openings.push_back(name);
   if (!openings.empty()) options.openings = s.surface.marked(openings);
-  s.voxels = geometry::voxelize(*s.tree, s.dx, options, &s.pockets);
+  try {
+    s.voxels = geometry::voxelize(*s.tree, s.dx, options, &s.pockets);
+  } catch (const std::invalid_argument& e) {
+    throw geometry::GeometryError(e.what());
+  }
+  geometry::refuse_buried(geometry::hidden_faces(*s.tree, s.voxels, options.openings));
 
   lbm::LinkGeometry links;
   links.mesh = &s.tree->mesh();
@@ -104,14 +110,18 @@ void build_lattice(const LatticeNumbers& numbers, Simulation& s) {
 
   lbm::AirOptions air;
   air.law = law_of(c.numerics.collision);
-  air.wall = c.numerics.wall == WallScheme::halfway ? lbm::WallScheme::halfway : lbm::WallScheme::bouzidi;
+  // A frozen field has no walls that act on the air: only the cells of the fluid are wanted.
+  air.wall = s.models.frozen_air ? lbm::WallScheme::bouzidi : wall_of(c.numerics.wall);
+  air.wall_model = c.numerics.wall_model && !s.models.frozen_air;
   air.double_precision = c.numerics.precision == Precision::float64;
-  air.smagorinsky = c.numerics.les == Les::smagorinsky ? c.numerics.smagorinsky_constant : 0.0;
+  air.smagorinsky = c.numerics.les == Les::none ? 0.0 : c.numerics.smagorinsky_constant;
+  air.eddy = c.numerics.les == Les::vreman ? lbm::Eddy::vreman : lbm::Eddy::smagorinsky;
+  air.hrr_sigma = c.numerics.hrr_sigma;
   air.sponge_length = sponge_length(s);
   s.state.air = lbm::make_air(s.voxels, links, air);
   build_turbulence(s);
   s.state.scale = {s.dx, numbers.dt, c.air.density};
-  s.state.cells = coupling::CellIndex(s.state.air->rows);
+  s.state.cells = coupling::CellIndex(s.state.air->rows, s.state.air->fluid);
   s.state.touched.assign(s.state.air->rows.runs().size(), 0);
   s.state.spreader = coupling::Spreader(s.state.air->rows.slots());
 }
@@ -149,6 +159,20 @@ void build_frozen_cells(Simulation& s) {
 
 }  // namespace
 
+lbm::WallScheme wall_of(WallScheme wall) {
+  switch (wall) {
+    case WallScheme::halfway:
+      return lbm::WallScheme::halfway;
+    case WallScheme::ibm:
+      return lbm::WallScheme::ibm;
+    case WallScheme::psm:
+      return lbm::WallScheme::psm;
+    case WallScheme::bouzidi:
+      break;
+  }
+  return lbm::WallScheme::bouzidi;
+}
+
 lbm::Law law_of(Collision collision) {
   switch (collision) {
     case Collision::bgk:
@@ -157,9 +181,12 @@ lbm::Law law_of(Collision collision) {
       return lbm::Law::trt;
     case Collision::central_moments:
       return lbm::Law::central_moments;
-    default:
-      return lbm::Law::rr3;
+    case Collision::hrr:
+      return lbm::Law::hrr;
+    case Collision::rr3:
+      break;
   }
+  return lbm::Law::rr3;
 }
 
 void build_air(Simulation& s) {

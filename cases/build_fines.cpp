@@ -43,10 +43,12 @@ std::vector<std::optional<double>> fixed_values(const Simulation& s, const std::
 }
 
 /// Fines in the air at the start: exp(-r^2/(2 sigma^2)) at the centres of the cells, scaled to the wanted amount.
-void place_cloud(const GaussianBlob& cloud, const lbm::Rows& rows, std::vector<double>& amount) {
+void place_cloud(const GaussianBlob& cloud, const lbm::Air& air, std::vector<double>& amount) {
+  const lbm::Rows& rows = air.rows;
   double sum = 0.0;
   for (const auto& run : rows.runs())
     for (std::ptrdiff_t slot = run.first; slot < run.first + run.count; ++slot) {
+      if (!air.is_fluid(slot)) continue;
       Vec3 r = rows.centre(slot) - cloud.center;
       for (int d = 0; d < 3; ++d)  // of the periodic images the nearest
         if (rows.periodic()[d]) r[d] -= rows.dx() * rows.box()[d] * std::round(r[d] / (rows.dx() * rows.box()[d]));
@@ -127,6 +129,11 @@ void build_fines(Simulation& s) {
   s.state.routes = lbm::find_routes(air, s.state.fluxes);
   if (s.models.frozen_air)
     coupling::set_frozen_fluxes(air.rows, s.state.routes, s.state.scale, s.models.frozen_air, s.state.fluxes);
+  const Numerics& n = s.description.numerics;
+  s.models.scalars.cfl = n.scalar_cfl;
+  s.models.scalars.skip_empty = n.skip.empty_cells;
+  s.models.idle_transport = n.skip.idle_transport;
+  s.models.transport_steps = n.skip.transport_steps;
   if (f.turbulent_schmidt > 0.0 && (s.models.frozen_air || s.description.numerics.les != Les::smagorinsky))
     throw std::invalid_argument(
         "fines.turbulent_schmidt: fines are mixed by the unresolved eddies of air.model = \"lbm\" with numerics.les = "
@@ -148,7 +155,7 @@ void build_fines(Simulation& s) {
     const int first = coupling::scalar_index(set, coupling::Mechanism::wall);
     s.models.scalars.scalar[first].fixed = fixed_values(s, scalar.name);
     if (scalar.initial) {
-      place_cloud(*scalar.initial, air.rows, s.state.scalars.amount[first]);
+      place_cloud(*scalar.initial, air, s.state.scalars.amount[first]);
       s.state.fines.placed[set] = lbm::total(s.state.scalars, first);
     }
     s.state.airborne = s.state.airborne || scalar.initial || !s.models.scalars.scalar[first].fixed.empty();

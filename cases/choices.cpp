@@ -32,12 +32,12 @@ constexpr std::array profiles{word(Profile::plug, "plug", yes), word(Profile::du
 constexpr std::array time_steps{word(TimeStepRule::follow_ramp, "follow-ramp", yes),
                                 word(TimeStepRule::fixed, "fixed", yes)};
 constexpr std::array collisions{word(Collision::bgk, "bgk", yes), word(Collision::trt, "trt", yes),
-                                word(Collision::rr3, "rr3", yes), word(Collision::hrr, "hrr", no),
+                                word(Collision::rr3, "rr3", yes), word(Collision::hrr, "hrr", yes),
                                 word(Collision::central_moments, "central-moments", yes)};
-constexpr std::array walls{word(WallScheme::bouzidi, "bouzidi", yes), word(WallScheme::ibm, "ibm", no),
-                           word(WallScheme::psm, "psm", no), word(WallScheme::halfway, "halfway", yes)};
+constexpr std::array walls{word(WallScheme::bouzidi, "bouzidi", yes), word(WallScheme::ibm, "ibm", yes),
+                           word(WallScheme::psm, "psm", yes), word(WallScheme::halfway, "halfway", yes)};
 constexpr std::array les_models{word(Les::none, "none", yes), word(Les::smagorinsky, "smagorinsky", yes),
-                                word(Les::vreman, "vreman", no)};
+                                word(Les::vreman, "vreman", yes)};
 constexpr std::array precisions{word(Precision::float32, "float", yes), word(Precision::float64, "double", yes)};
 constexpr std::array fill_shapes{word(FillShape::cylinder, "cylinder", yes), word(FillShape::cube, "cube", yes),
                                  word(FillShape::settled, "settled", yes), word(FillShape::file, "file", yes)};
@@ -46,7 +46,7 @@ constexpr std::array size_laws{word(SizeLaw::log_normal, "log-normal", yes),
 constexpr std::array drags{word(Drag::none, "none", yes), word(Drag::schiller_naumann, "schiller-naumann", yes),
                            word(Drag::di_felice, "di-felice", yes), word(Drag::beetstra, "beetstra", yes)};
 constexpr std::array volume_fractions{word(VolumeFraction::none, "none", yes), word(VolumeFraction::drag, "drag", yes),
-                                      word(VolumeFraction::averaged, "averaged", no)};
+                                      word(VolumeFraction::averaged, "averaged", yes)};
 constexpr std::array lifts{word(Lift::none, "none", yes), word(Lift::saffman_mei, "saffman-mei", yes),
                            word(Lift::saffman_magnus, "saffman-magnus", yes)};
 constexpr std::array outsides{word(Outside::remove, "remove", yes), word(Outside::bounce, "bounce", yes)};
@@ -65,7 +65,7 @@ constexpr std::array schemes{word(ScalarScheme::upwind, "upwind", yes), word(Sca
 constexpr std::array scalar_walls{word(ScalarWall::reflect, "reflect", yes), word(ScalarWall::absorb, "absorb", yes)};
 }  // namespace
 
-const Features features{.wall_model = no,
+const Features features{.wall_model = yes,
                         .inlet_turbulence = yes,
                         .body_force_file = yes,
                         .velocity_friction = yes,

@@ -6,7 +6,7 @@
 
 namespace puffin::coupling {
 
-CellIndex::CellIndex(const lbm::Rows& rows)
+CellIndex::CellIndex(const lbm::Rows& rows, const std::vector<std::uint8_t>& fluid)
     : run_count_(rows.runs().size()),
       dx_(rows.dx()),
       origin_(rows.origin()),
@@ -36,7 +36,7 @@ CellIndex::CellIndex(const lbm::Rows& rows)
     const Row& row = row_of(run);
     for (int n = 0; n < run.count; ++n) {
       const auto slot = static_cast<std::int32_t>(run.first + n);
-      slots_[row.begin + (run.x + n - row.first)] = slot;
+      if (fluid.empty() || fluid[slot] != 0) slots_[row.begin + (run.x + n - row.first)] = slot;
       runs_[slot] = static_cast<std::int32_t>(r);
     }
   }

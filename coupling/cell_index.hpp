@@ -16,7 +16,9 @@ class CellIndex {
  public:
   CellIndex() = default;
   /// Throws std::invalid_argument beyond 2^31 slots.
-  explicit CellIndex(const lbm::Rows& rows);
+  explicit CellIndex(const lbm::Rows& rows) : CellIndex(rows, {}) {}
+  /// Cells with fluid[slot] == 0 (behind a wall, in the band of an immersed boundary) count as not active.
+  CellIndex(const lbm::Rows& rows, const std::vector<std::uint8_t>& fluid);
 
   /// Slot of cell (i,j,k) if it is active, else -1; periodic directions are wrapped.
   std::int32_t active_slot(int i, int j, int k) const {

@@ -5,146 +5,57 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lbm/eddy_length.hpp"
+#include "lbm/markers.hpp"
+#include "lbm/psm.hpp"
 #include "lbm/slip.hpp"
+#include "lbm/wall_model.hpp"
+#include "lbm/wall_schemes.hpp"
 
 namespace puffin::lbm {
 
 using geometry::Vec3;
 
-namespace {
-
-/// 18 sqrt2 L^2 with L = min(C_s, d/14), d the wall distance in cells (at least 1/2), and C_s raised up to threefold in
-/// the sponge. d/14: the cell beside a wall (y+ of 20 to 60 at device scale) then carries the stress of the log law,
-/// tau_w = rho (L u/d)^2 = rho (u/u+)^2 with u+ = 14. With kappa d instead (0.2 at d = 1/2, so C_s) the friction of a
-/// channel 6 cells high came out five times too large: docs/decisions/0002-mixing-length-at-walls.md.
-std::vector<float> eddy_lengths(const Rows& rows, const LinkGeometry& surface, const AirOptions& options) {
-  std::vector<float> les(rows.slots(), 0.0F);
-  if (options.smagorinsky <= 0.0) return les;
-  constexpr double slope = 1.0 / 14.0;
-  auto walls = std::make_shared<geometry::TriangleMesh>(), outlets = std::make_shared<geometry::TriangleMesh>();
-  walls->vertices = outlets->vertices = surface.mesh->vertices;
-  for (std::size_t t = 0; t < surface.mesh->triangles.size(); ++t) {
-    const BoundaryKind kind = surface.boundaries[surface.patch_of_triangle[t]].kind;
-    if (kind == BoundaryKind::wall || kind == BoundaryKind::pressure_outlet) {
-      auto& mesh = kind == BoundaryKind::wall ? walls : outlets;
-      mesh->triangles.push_back(surface.mesh->triangles[t]);
-      mesh->solid.push_back(0);
-    }
-  }
-  using geometry::TriangleTree;
-  const auto tree_of = [](const std::shared_ptr<geometry::TriangleMesh>& mesh) {
-    return mesh->triangles.empty() ? nullptr : std::make_unique<TriangleTree>(mesh);
-  };
-  const auto wall_tree = tree_of(walls), outlet_tree = tree_of(outlets);
-  const double dx = rows.dx(), reach = options.smagorinsky / slope * dx;
-  for_each_chunk(rows, [&](int, const Chunk& chunk) {
-    for (int r = chunk.first_run; r < chunk.last_run; ++r)
-      for (int n = 0; n < rows.runs()[r].count; ++n) {
-        const std::ptrdiff_t slot = rows.runs()[r].first + n;
-        const Vec3 x = rows.centre(slot);
-        double length = options.smagorinsky;
-        if (outlet_tree && options.sponge_length > 0.0) {
-          const double d = outlet_tree->closest(x, options.sponge_length).distance;
-          if (d < options.sponge_length) length *= 3.0 - 2.0 * d / options.sponge_length;
-        }
-        if (wall_tree)
-          length = std::min(length, slope * std::max(0.5, wall_tree->closest(x, 3.0 * reach).distance / dx));
-        les[slot] = static_cast<float>(18.0 * std::sqrt(2.0) * length * length);
-      }
-  });
-  return les;
-}
-
-template <class T>
-void cross_periodic_faces(const Links& links, Parity last, Populations<T>& p) {
-  const auto cross = [&](const Links::Image& image, bool to_ghost) {
-    T* f = p.f.data() + image.direction * p.stride;
-    if (to_ghost)
-      f[image.ghost] = f[image.active];
-    else
-      f[image.active] = f[image.ghost];
-  };
-  // Every image has a place of its own to write; corners read what their faces have written, so they come after.
-  oneapi::tbb::parallel_for(
-      oneapi::tbb::blocked_range<std::size_t>(0, links.images.size(), 2048),
-      [&](const auto& range) {
-        for (std::size_t k = range.begin(); k < range.end(); ++k) cross(links.images[k], last == Parity::even);
-      },
-      oneapi::tbb::static_partitioner());
-  for (const auto& image : links.corner_images) cross(image, true);
-}
-
-/// Half-way reflection on both sides of a wall thinner than a cell: what left each side comes back to it.
-template <class T>
-void reflect_at_thin_walls(const Rows& rows, const Links& links, Populations<T>& p) {
-  for (const auto& link : links.thin) {
-    const int i = link.direction, o = d3q19::opposite(i);
-    std::swap(p.f[o * p.stride + link.slot],
-              p.f[i * p.stride + link.slot + neighbour_offset(rows.runs()[link.run], i)]);
-  }
-}
-
-/// Place of the population that comes back along a cut link, between a collision of kind `last` and the next.
-template <class T>
-T& returning(const Run& run, const OpeningLink& link, Parity last, Populations<T>& p) {
-  const int i = link.direction, o = d3q19::opposite(i);
-  if (last == Parity::even) return p.f[i * p.stride + link.slot + neighbour_offset(run, i)];
-  return p.f[o * p.stride + link.slot];
-}
-
-template <class T>
-void apply_inlets(const Rows& rows, const Links& links, const Drive& drive, Parity last, Populations<T>& p) {
-  // Velocity bounce-back: f_in = f_out - 6 w c.u (Ladd, J. Fluid Mech. 271, 285 (1994)); mass flux exactly as asked.
-  for (std::size_t k = 0; k < links.inlets.size(); ++k) {
-    const auto& link = links.inlets[k];
-    const Run& run = rows.runs()[link.run];
-    const double more = drive.inlet_fluctuation.empty() ? 0.0 : drive.inlet_fluctuation[k];
-    returning(run, link, last, p) =
-        p.departed(run, link.slot, link.direction, last) + static_cast<T>(link.gain * drive.speed[link.patch] + more);
-  }
-}
-
-/// Anti-bounce-back: f_in = -f_out + 2 w rho (1 + 9/2 (c.u)^2 - 3/2 u^2), u that of the cell, and zero where it points
-/// into the domain: with back-flow the term would feed itself.
-/// Source: Ginzburg, Verhaeghe & d'Humieres, Commun. Comput. Phys. 3, 427 (2008).
-template <class T>
-std::int64_t apply_outlets(const Air& air, const Drive& drive, Parity last, std::size_t begin, std::size_t end,
-                           Populations<T>& p) {
-  std::int64_t cut = 0;
-  const auto& list = air.links.outlets;
-  for (std::size_t k = begin; k < end;) {
-    const std::ptrdiff_t slot = list[k].slot;
-    const Run& run = air.rows.runs()[list[k].run];
-    double drho = 0.0;
-    Vec3 j = Vec3::Zero();
-    for (int i = 0; i < d3q19::q; ++i) {
-      const double f = p.departed(run, slot, i, last);
-      const auto& c = d3q19::velocity[i];
-      drho += f;
-      j += f * Vec3(c[0], c[1], c[2]);
-    }
-    Vec3 u = j / (1.0 + drho);
-    if (u.dot(air.normal[list[k].patch]) < 0.0) {
-      u.setZero();
-      ++cut;
-    }
-    for (; k < end && list[k].slot == slot; ++k) {
-      const int i = list[k].direction;
-      const auto& c = d3q19::velocity[i];
-      const double cu = u.dot(Vec3(c[0], c[1], c[2])), rho = 1.0 + drive.density_excess[list[k].patch];
-      const double dynamic = rho * (4.5 * cu * cu - 1.5 * u.squaredNorm());
-      returning(run, list[k], last, p) = static_cast<T>(
-          -p.departed(run, slot, i, last) + 2.0 * d3q19::weight[i] * (drive.density_excess[list[k].patch] + dynamic));
-    }
-  }
-  return cut;
-}
-
-}  // namespace
 
 Parity Air::parity() const {
   return std::visit([](const auto& p) { return p.next; }, populations);
 }
+
+namespace {
+
+/// The computed cells of the wall scheme, and what the scheme keeps of them.
+CellKinds lay_out_cells(const geometry::Voxels& voxels, const LinkGeometry& surface,
+                        const std::array<bool, 3>& periodic, Air& air) {
+  const AirOptions& options = air.options;
+  CellKinds kinds;
+  if (options.wall != WallScheme::ibm && options.wall != WallScheme::psm) {
+    air.rows = Rows(voxels, periodic);
+    air.fluid_cells = air.rows.active_cells();
+    return kinds;
+  }
+  const bool band = options.wall == WallScheme::ibm;
+  const double depth = options.markers.band();
+  const ActiveCells cells =
+      band ? with_band(voxels, surface, depth, periodic) : with_cut_cells(voxels, surface, least_fluid);
+  air.rows = Rows(cells.computed, periodic);
+  air.fluid.assign(air.rows.slots(), 0);
+  for (const Run& run : air.rows.runs())
+    for (int n = 0; n < run.count; ++n) {
+      const bool inside = cells.centre_inside[cells.computed.index(run.x + n, run.y, run.z)] != 0;
+      air.fluid[run.first + n] = inside;
+      air.fluid_cells += inside;
+    }
+  kinds.fluid = air.fluid;
+  kinds.sides = std::make_shared<const WallSides>(air.rows, surface, depth + 1.0);
+  if (band)
+    air.markers = std::make_shared<Markers>(place_markers(air.rows, *kinds.sides, surface, options.markers));
+  else
+    air.partial =
+        std::make_shared<PartialCells>(find_partial_cells(air.rows, cells, surface, options.double_precision));
+  return kinds;
+}
+
+}  // namespace
 
 Air make_air(const geometry::Voxels& voxels, const LinkGeometry& surface, const AirOptions& options) {
   std::array<bool, 3> periodic{false, false, false};
@@ -159,8 +70,8 @@ Air make_air(const geometry::Voxels& voxels, const LinkGeometry& surface, const 
       for (int d = 0; d < 3; ++d) periodic[d] = periodic[d] || std::abs(air.normal[b][d]) > 0.99;
   }
   air.options = options;
-  air.rows = Rows(voxels, periodic);
-  air.links = build_links(air.rows, surface, options.wall);
+  const CellKinds kinds = lay_out_cells(voxels, surface, periodic, air);
+  air.links = build_links(air.rows, surface, options.wall, kinds);
   const std::size_t slots = air.rows.slots();
   if (options.double_precision)
     air.populations = Populations<double>(slots);
@@ -175,96 +86,15 @@ Air make_air(const geometry::Voxels& voxels, const LinkGeometry& surface, const 
     for (int n = 0; n < air.rows.runs()[r].count; ++n)
       air.run_of_slot[air.rows.runs()[r].first + n] = static_cast<std::int32_t>(r);
   air.les = eddy_lengths(air.rows, surface, options);
-  return air;
-}
-
-KernelReport collide_and_stream(const CollisionConstants& constants, const Drive& drive, Air& air) {
-  std::vector<KernelReport> reports(air.rows.chunks().size());
-  std::visit(
-      [&]<class T>(Populations<T>& p) {
-        KernelInput<T> input;
-        input.f = p.f.data();
-        input.stride = p.stride;
-        input.runs = air.rows.runs().data();
-        input.run_flags = air.run_flags.data();
-        input.parity = p.next;
-        input.constants = constants;
-        input.les = air.les.data();
-        for (int d = 0; d < 3; ++d) {
-          input.uniform_force[d] = drive.uniform_force[d];
-          input.forced_everywhere = input.forced_everywhere || drive.uniform_force[d] != 0.0;
-        }
-        const std::array<float*, 3> force{air.force.x.data(), air.force.y.data(), air.force.z.data()};
-        const std::array<float*, 4> moments{air.moments.density_excess.data(), air.moments.ux.data(),
-                                            air.moments.uy.data(), air.moments.uz.data()};
-        for (int d = 0; d < 3; ++d) input.force[d] = force[d];
-        for (int d = 0; d < 4; ++d) input.moments[d] = moments[d];
-        const Kernel<T> kernel = select_kernel<T>(air.options.law, constants.rescale != 1.0, air.options.isa);
-        for_each_chunk(air.rows, [&](int c, const Chunk& chunk) {
-          KernelInput<T> mine = input;
-          mine.first_run = chunk.first_run;
-          mine.last_run = chunk.last_run;
-          reports[c] = kernel(mine);
-        });
-      },
-      air.populations);
-  KernelReport all;
-  for (const KernelReport& r : reports) {
-    all.max_speed2 = std::max(all.max_speed2, r.max_speed2);
-    all.min_density_excess = std::min(all.min_density_excess, r.min_density_excess);
-    all.max_density_excess = std::max(all.max_density_excess, r.max_density_excess);
-    all.limited += r.limited;
-    all.bad = all.bad || r.bad;
+  std::vector<float> length2;
+  if (options.eddy == Eddy::vreman && options.smagorinsky > 0.0) {
+    length2.assign(slots, 0.0F);
+    std::swap(length2, air.les);
   }
-  air.limited += all.limited;
-  return all;
-}
-
-void apply_links(const Drive& drive, Air& air) {
-  double wall_speed = 0.0;
-  for (std::size_t b = 0; b < air.boundaries.size(); ++b)
-    if (air.boundaries[b].kind == BoundaryKind::wall && air.boundaries[b].profile) wall_speed = drive.speed[b];
-  std::visit(
-      [&]<class T>(Populations<T>& p) {
-        const Parity last = p.next;
-        const Links& links = air.links;
-        cross_periodic_faces(links, last, p);
-        WallInput<T> input;
-        input.f = p.f.data();
-        input.stride = p.stride;
-        input.runs = air.rows.runs().data();
-        input.walls = links.walls.data();
-        input.parity = last;
-        input.partner = links.partner.data();
-        input.moving = links.moving.empty() ? nullptr : links.moving.data();
-        input.wall_speed = wall_speed;
-        const WallKernel<T> kernel = select_wall_kernel<T>(air.options.isa);
-        // A link writes a place of its own cell alone, and none that another link reads: any order gives the same.
-        const std::size_t outlets = links.outlet_chunks.size() - 1, walls = links.wall_chunks.size() - 1;
-        std::vector<std::int64_t> cut(outlets, 0);
-        oneapi::tbb::parallel_for(
-            std::size_t{0}, walls + outlets + 1,
-            [&](std::size_t k) {
-              if (k < walls) {
-                WallInput<T> mine = input;
-                mine.first = links.wall_chunks[k];
-                mine.last = links.wall_chunks[k + 1];
-                kernel(mine);
-              } else if (k < walls + outlets) {
-                const std::size_t o = k - walls;
-                cut[o] = apply_outlets(air, drive, last, links.outlet_chunks[o], links.outlet_chunks[o + 1], p);
-              } else {
-                apply_inlets(air.rows, links, drive, last, p);
-              }
-            },
-            oneapi::tbb::static_partitioner());
-        for (const std::int64_t c : cut) air.backflow += c;
-        reflect_at_slip_walls(air.rows, links.slip, last, p);
-        reflect_at_thin_walls(air.rows, links, p);
-        p.next = last == Parity::even ? Parity::odd : Parity::even;
-      },
-      air.populations);
-  ++air.steps;
+  air.gradients = make_velocity_gradients(air.rows, air.links, air.boundaries, options.law == Law::hrr, length2);
+  if (options.wall_model)
+    air.wall_model = std::make_shared<WallModel>(find_modelled_cells(air.rows, air.links, surface));
+  return air;
 }
 
 CellMoments<double> moments_at(const Air& air, std::ptrdiff_t slot) {
@@ -274,7 +104,12 @@ CellMoments<double> moments_at(const Air& air, std::ptrdiff_t slot) {
         double g[19];
         for (int i = 0; i < d3q19::q; ++i) g[i] = p.arrived(run, slot, i);
         const double none[3] = {0, 0, 0};
-        return moments_of(hydrodynamics<false>([&](auto i) { return g[i]; }, none));
+        auto m = moments_of(hydrodynamics<false>([&](auto i) { return g[i]; }, none));
+        if (air.markers) {
+          double* const u[3] = {&m.ux, &m.uy, &m.uz};
+          for (int d = 0; d < 3; ++d) *u[d] += 0.5 * air.markers->force[d][slot] / (1.0 + m.density_excess);
+        }
+        return m;
       },
       air.populations);
 }
@@ -326,7 +161,7 @@ void set_cells(const std::function<InitialCell(const Vec3& centre)>& state, Air&
 }
 
 std::array<double, 3> force_on_patch(const Air& air, int boundary) {
-  std::array<double, 3> force{0, 0, 0};
+  std::array<double, 3> force = force_on_cells(air, boundary);
   std::visit(
       [&]<class T>(const Populations<T>& p) {
         const Parity last = p.next == Parity::even ? Parity::odd : Parity::even;

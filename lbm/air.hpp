@@ -7,22 +7,36 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <variant>
 #include <vector>
 
 #include "lbm/kernel.hpp"
 #include "lbm/links.hpp"
+#include "lbm/marker_options.hpp"
 #include "lbm/moments.hpp"
 #include "lbm/populations.hpp"
 #include "lbm/rows.hpp"
+#include "lbm/velocity_gradients.hpp"
 
 namespace puffin::lbm {
+
+/// Where the eddy viscosity comes from: the cell's own stress, or the velocity gradient (vreman.hpp).
+enum class Eddy { smagorinsky, vreman };
+
+struct Markers;       // markers.hpp
+struct PartialCells;  // psm.hpp
+struct WallModel;     // wall_model.hpp
 
 struct AirOptions {
   Law law = Law::rr3;
   WallScheme wall = WallScheme::bouzidi;
+  MarkerOptions markers;    // ibm
+  bool wall_model = false;  // bouzidi, halfway
   bool double_precision = false;
-  double smagorinsky = 0.10;   // C_s; 0: no eddy viscosity
+  double smagorinsky = 0.10;  // C_s; 0: no eddy viscosity
+  Eddy eddy = Eddy::smagorinsky;
+  double hrr_sigma = 0.98;     // law hrr: share of the cell's own stress
   double sponge_length = 0.0;  // [m] before the outlets, over which C_s rises threefold (numerics: outlet stability)
   Isa isa = detect_isa();
 };
@@ -46,12 +60,20 @@ struct Air {
   BodyForce force;
   std::vector<std::uint8_t> run_flags;    // per run: run_forced, run_moments
   std::vector<std::int32_t> run_of_slot;  // -1: not active
-  std::vector<float> les;                 // 18 sqrt2 L^2 per slot
+  std::vector<float> les;                 // per slot: 18 sqrt2 L^2, or what prescribed_les says
+  VelocityGradients gradients;            // for hrr and vreman
+  std::vector<std::uint8_t> fluid;  // by slot: the centre lies in the fluid; empty: that of every active cell does
+  std::size_t fluid_cells = 0;
+  // What the wall keeps of its cells, and scratch of its step; null for other walls. Copies of an Air share it.
+  std::shared_ptr<PartialCells> partial;  // WallScheme::psm
+  std::shared_ptr<Markers> markers;       // WallScheme::ibm
+  std::shared_ptr<WallModel> wall_model;  // AirOptions::wall_model
   std::int64_t steps = 0;
   std::int64_t limited = 0;   // cells x steps in which the positivity limiter acted
   std::int64_t backflow = 0;  // outlet cells x steps with the back-flow cut
 
   Parity parity() const;  // kind of the next collision
+  bool is_fluid(std::ptrdiff_t slot) const { return fluid.empty() || fluid[slot] != 0; }
 };
 
 /// Lays out cells and links and starts from air at rest. Throws as Rows and build_links do.
@@ -64,7 +86,12 @@ KernelReport collide_and_stream(const CollisionConstants& constants, const Drive
 /// Walls, openings and periodic faces; completes the step. To be called once after each collide_and_stream.
 void apply_links(const Drive& drive, Air& air);
 
-/// Density and velocity at an active slot between steps (force of the coming step not included).
+/// Both at once, to the same bits, in one pass: the links of cells are applied while these are still in the cache
+/// (link_schedule.hpp).
+KernelReport advance_air(const CollisionConstants& constants, const Drive& drive, Air& air);
+
+/// Density and velocity at an active slot between steps (force of the coming step not included, but that of markers as
+/// it was laid last).
 CellMoments<double> moments_at(const Air& air, std::ptrdiff_t slot);
 /// Fills air.moments at every active cell.
 void find_moments(Air& air);

@@ -1,9 +1,9 @@
 #pragma once
 // Regularised laws: what a cell keeps are density, velocity and the relaxed stress; all 19 populations are made anew
-// from these ten numbers. Three steps: find_state reads the populations, relax finds the factor of the stress, assemble
-// writes the populations. A kernel does each for many cells before the next: the square roots and divisions of relax
-// then no longer wait for each other (2.5 times faster than cell by cell), and the positivity limiter can scale the
-// stress.
+// from these ten numbers. Four steps: read_moments sums the populations, find_stress divides, relax finds the factor of
+// the stress, assemble writes the populations. A kernel does each for many cells before the next: the square roots and
+// divisions then no longer wait for each other (2.5 times faster than cell by cell), and the positivity limiter can
+// scale the stress.
 
 #include "lbm/collision.hpp"
 
@@ -17,16 +17,36 @@ struct CellState {
   Real p[6];        // stress without trace: Pi before relax, (1 - omega) Pi for assemble
 };
 
-/// Reads a cell; the trace of the stress is relaxed at 1. `les` is 18 sqrt2 L^2, and over the density on return.
-template <bool Forced, class Real, class Get>
-[[gnu::always_inline]] inline void find_state(const Get& get, const Real (&force)[3], Real& les, CellState<Real>& s) {
-  Hydrodynamics<Real> h = hydrodynamics<Forced>(get, force);
+/// Reads a cell: raw moments into drho, j and p.
+template <class Real, class Get>
+[[gnu::always_inline]] inline void read_moments(const Get& get, CellState<Real>& s) {
+  const RawMoments<Real> r = raw_moments<Real>(get);
+  s.drho = r.drho;
+  for (int d = 0; d < 3; ++d) s.j[d] = r.j[d];
+  for (int n = 0; n < 6; ++n) s.p[n] = r.m[n];
+}
+
+/// From raw moments to velocity and stress; the trace of the stress is relaxed at 1. `les` is 18 sqrt2 L^2, and over
+/// the density on return.
+template <bool Forced, class Real>
+[[gnu::always_inline]] inline void find_stress(const Real (&force)[3], Real& les, CellState<Real>& s) {
+  RawMoments<Real> r;
+  r.drho = s.drho;
+  for (int d = 0; d < 3; ++d) r.j[d] = s.j[d];
+  for (int n = 0; n < 6; ++n) r.m[n] = s.p[n];
+  Hydrodynamics<Real> h = hydrodynamics<Forced>(r, force);
   remove_trace(h.pi);
   les = les * h.inverse_rho;
-  s.drho = h.drho;
   for (int d = 0; d < 3; ++d) s.j[d] = h.j[d];
   for (int d = 0; d < 3; ++d) s.u[d] = h.u[d];
   for (int n = 0; n < 6; ++n) s.p[n] = h.pi[n];
+}
+
+/// Both at once.
+template <bool Forced, class Real, class Get>
+[[gnu::always_inline]] inline void find_state(const Get& get, const Real (&force)[3], Real& les, CellState<Real>& s) {
+  read_moments(get, s);
+  find_stress<Forced>(force, les, s);
 }
 
 /// Relaxation of the stress: returns 1 - omega. `les` = 18 sqrt2 L^2/rho.
@@ -35,7 +55,7 @@ struct RelaxStress {
 
   template <class Real>
   [[gnu::always_inline]] static inline Real relax(const CollisionConstants& c, const Real& les, CellState<Real>& s) {
-    return constant<Real>(1) - constant<Real>(2) / twice_tau(s.p, c.tau0, les);
+    return constant<Real>(1) - constant<Real>(2) * Arithmetic<Real>::inverse(twice_tau(s.p, c, les));
   }
 };
 
@@ -48,7 +68,7 @@ struct RelaxRescaled {
   template <class Real>
   [[gnu::always_inline]] static inline Real relax(const CollisionConstants& c, const Real& les, CellState<Real>& s) {
     const Real one = constant<Real>(1), r = constant<Real>(c.rescale);
-    const Real tau = constant<Real>(0.5) * twice_tau(s.p, c.tau0, les);
+    const Real tau = constant<Real>(0.5) * twice_tau(s.p, c, les);
     const Real tau_new = constant<Real>(c.tau0_rescaled) + r * (tau - constant<Real>(c.tau0));
     const Real old_rho = one + s.drho;
     s.drho = constant<Real>(c.rescale * c.rescale) * s.drho;
@@ -151,6 +171,27 @@ struct Rr3 : RelaxStress {
 
 /// RR3 in the step in which the time step changes.
 struct Rr3Rescaled : RelaxRescaled {
+  template <bool Forced, class Real, class Put>
+  [[gnu::always_inline]] static inline void assemble(const CellState<Real>& r, const Real (&force)[3], const Put& put) {
+    Rr3::assemble<Forced>(r, force, put);
+  }
+};
+
+/// Hybrid recursive-regularised collision: RR3 whose stress is blended with the one that the strain rate S of the
+/// velocity field asks for,  Pi <- sigma Pi + (1 - sigma)(-2/3 rho tau S),  S by finite differences and without trace
+/// (velocity_gradients.hpp). The whole stress is blended, in the second and the third order.
+/// Source: Jacob, Malaspinas & Sagaut, J. Turbulence 19, 1051 (2018). sigma = 1: RR3. Linearly stable to |u| = 0.15 at
+/// tau = 0.5003, sigma = 0.98. tau is that of the cell's own stress. Second order: nu = (tau - 1/2)/3.
+struct Hrr : RelaxStress {
+  template <class Real>
+  [[gnu::always_inline]] static inline void blend(const CollisionConstants& c, const Real& les, const Real (&strain)[6],
+                                                  CellState<Real>& s) {
+    const Real own = constant<Real>(c.hrr_sigma);
+    const Real field =
+        constant<Real>((c.hrr_sigma - 1.0) / 3.0) * ((constant<Real>(1) + s.drho) * twice_tau(s.p, c, les));
+    for (int n = 0; n < 6; ++n) s.p[n] = own * s.p[n] + field * strain[n];
+  }
+
   template <bool Forced, class Real, class Put>
   [[gnu::always_inline]] static inline void assemble(const CellState<Real>& r, const Real (&force)[3], const Put& put) {
     Rr3::assemble<Forced>(r, force, put);

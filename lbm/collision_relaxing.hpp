@@ -18,7 +18,7 @@ struct TwoRelaxationTimes {
                                                                  const CollisionConstants& c, const Real& les) {
     const Hydrodynamics<Real> h = hydrodynamics<Forced>(get, force);
     const Real one = constant<Real>(1), half = constant<Real>(0.5);
-    const Real tau = half * twice_tau(h.pi, c.tau0, les * h.inverse_rho);
+    const Real tau = half * twice_tau(h.pi, c, les * h.inverse_rho);
     const Real even = one / tau;
     Real odd = even;
     if constexpr (Magic > 0) odd = one / (half + constant<Real>(Magic / 16.0) / (tau - half));

@@ -11,6 +11,9 @@ WallKernel<float> walls_float();
 WallKernel<double> walls_double();
 FluxKernel<float> fluxes_float();
 FluxKernel<double> fluxes_double();
+VelocityKernel<float> velocities_float();
+VelocityKernel<double> velocities_double();
+GradientKernel gradients();
 }  // namespace baseline
 namespace avx2 {
 Kernel<float> kernel_float(Law law, bool rescale);
@@ -19,6 +22,9 @@ WallKernel<float> walls_float();
 WallKernel<double> walls_double();
 FluxKernel<float> fluxes_float();
 FluxKernel<double> fluxes_double();
+VelocityKernel<float> velocities_float();
+VelocityKernel<double> velocities_double();
+GradientKernel gradients();
 }  // namespace avx2
 namespace avx512 {
 Kernel<float> kernel_float(Law law, bool rescale);
@@ -27,27 +33,10 @@ WallKernel<float> walls_float();
 WallKernel<double> walls_double();
 FluxKernel<float> fluxes_float();
 FluxKernel<double> fluxes_double();
+VelocityKernel<float> velocities_float();
+VelocityKernel<double> velocities_double();
+GradientKernel gradients();
 }  // namespace avx512
-
-Isa detect_isa() {
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") &&
-      __builtin_cpu_supports("avx512vl"))
-    return Isa::avx512;
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return Isa::avx2;
-  return Isa::baseline;
-}
-
-const char* name(Isa isa) {
-  switch (isa) {
-    case Isa::avx512:
-      return "avx512";
-    case Isa::avx2:
-      return "avx2";
-    case Isa::baseline:
-      break;
-  }
-  return "baseline";
-}
 
 template <class T>
 Kernel<T> select_kernel(Law law, bool rescale, Isa isa) {
@@ -82,6 +71,24 @@ FluxKernel<T> select_flux_kernel(Isa isa) {
   }
 }
 
+template <class T>
+VelocityKernel<T> select_velocity_kernel(Isa isa) {
+  if constexpr (std::is_same_v<T, float>) {
+    if (isa == Isa::avx512) return avx512::velocities_float();
+    return isa == Isa::avx2 ? avx2::velocities_float() : baseline::velocities_float();
+  } else {
+    if (isa == Isa::avx512) return avx512::velocities_double();
+    return isa == Isa::avx2 ? avx2::velocities_double() : baseline::velocities_double();
+  }
+}
+
+GradientKernel select_gradient_kernel(Isa isa) {
+  if (isa == Isa::avx512) return avx512::gradients();
+  return isa == Isa::avx2 ? avx2::gradients() : baseline::gradients();
+}
+
+template VelocityKernel<float> select_velocity_kernel<float>(Isa);
+template VelocityKernel<double> select_velocity_kernel<double>(Isa);
 template FluxKernel<float> select_flux_kernel<float>(Isa);
 template FluxKernel<double> select_flux_kernel<double>(Isa);
 template WallKernel<float> select_wall_kernel<float>(Isa);

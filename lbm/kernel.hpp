@@ -28,7 +28,20 @@ struct WallRun {
   std::size_t coefficient = 0;   // first of (number of directions) x count coefficients, direction by direction
 };
 
-enum class Law { rr3, bgk, trt, central_moments };
+/// Wall cells anywhere, alike in the directions of their links and in how these interpolate. Their places: the slots of
+/// the cells; then, direction by direction, the slots beyond the wall and those behind the cells. The last cell is
+/// repeated until the cells fill whole packs: it is given the same values again.
+struct WallGroup {
+  std::int32_t count = 0;        // cells, a multiple of group_unit
+  std::uint32_t directions = 0;  // as in WallRun
+  std::uint32_t far = 0;
+  bool moving = false;
+  std::size_t place = 0;        // first of (1 + 2 x number of directions) x count places
+  std::size_t coefficient = 0;  // first of (number of directions) x count coefficients, direction by direction
+};
+inline constexpr int group_unit = 16;  // lanes of the widest pack
+
+enum class Law { rr3, bgk, trt, central_moments, hrr };
 enum class Parity : std::uint8_t { even, odd };
 enum class Isa { baseline, avx2, avx512 };
 
@@ -53,7 +66,8 @@ struct KernelInput {
   int first_run = 0, last_run = 0;
   Parity parity = Parity::even;
   CollisionConstants constants;
-  const float* les = nullptr;  // 18 sqrt2 L^2 per slot; zeros: no eddy viscosity
+  const float* les = nullptr;   // per slot: 18 sqrt2 L^2, or what prescribed_les says; zeros: no eddy viscosity
+  const float* strain[6] = {};  // per slot: strain rate without trace, read by the law hrr
   double uniform_force[3] = {0, 0, 0};
   bool forced_everywhere = false;                            // a uniform force acts
   const float* force[3] = {nullptr, nullptr, nullptr};       // per slot, read in runs flagged run_forced
@@ -67,7 +81,7 @@ inline constexpr double speed_limit = 0.4;
 template <class T>
 using Kernel = KernelReport (*)(const KernelInput<T>&);
 
-/// Cut links of the walls in runs of equal directions: see links.hpp.
+/// Cut links of the walls in runs and groups of equal directions: see links.hpp, link_schedule.hpp.
 template <class T>
 struct WallInput {
   T* f = nullptr;
@@ -75,10 +89,15 @@ struct WallInput {
   const Run* runs = nullptr;
   const WallRun* walls = nullptr;
   std::size_t first = 0, last = 0;  // [first, last) of walls
-  Parity parity = Parity::even;     // of the collision that has just been done
   const float* partner = nullptr;   // weight of the second population in the interpolation
   const float* moving = nullptr;    // or null
-  double wall_speed = 0.0;          // multiplies `moving` [lattice units]
+  const WallGroup* groups = nullptr;
+  std::size_t first_group = 0, last_group = 0;
+  const std::int32_t* places = nullptr;  // and coefficients, of groups
+  const float* group_partner = nullptr;
+  const float* group_moving = nullptr;
+  Parity parity = Parity::even;  // of the collision that has just been done
+  double wall_speed = 0.0;       // multiplies `moving` [lattice units]
 };
 template <class T>
 using WallKernel = void (*)(const WallInput<T>&);
@@ -99,6 +118,31 @@ struct FluxInput {
 template <class T>
 using FluxKernel = void (*)(const FluxInput<T>&);
 
+/// Velocities of the cells of some runs, as they have arrived before a step: see velocity_gradients.hpp.
+template <class T>
+struct VelocityInput {
+  const T* f = nullptr;
+  std::size_t stride = 0;
+  const Run* runs = nullptr;
+  int first_run = 0, last_run = 0;
+  Parity next = Parity::even;
+  float* moments[4] = {nullptr, nullptr, nullptr, nullptr};  // rho-1, ux, uy, uz
+};
+template <class T>
+using VelocityKernel = void (*)(const VelocityInput<T>&);
+
+/// Central differences of these velocities, and what the laws make of them. Near walls the result is replaced.
+struct GradientInput {
+  const Run* runs = nullptr;
+  int first_run = 0, last_run = 0;
+  const float* moments[4] = {nullptr, nullptr, nullptr, nullptr};
+  float* strain[6] = {};           // without trace; null: not wanted
+  const float* length2 = nullptr;  // Vreman's c Delta^2; null: not wanted
+  float* les = nullptr;
+  double tau0 = 1.0;
+};
+using GradientKernel = void (*)(const GradientInput&);
+
 /// The best instruction set this processor offers (and the build contains).
 Isa detect_isa();
 const char* name(Isa isa);
@@ -109,5 +153,8 @@ template <class T>
 WallKernel<T> select_wall_kernel(Isa isa);
 template <class T>
 FluxKernel<T> select_flux_kernel(Isa isa);
+template <class T>
+VelocityKernel<T> select_velocity_kernel(Isa isa);
+GradientKernel select_gradient_kernel(Isa isa);
 
 }  // namespace puffin::lbm

@@ -2,6 +2,8 @@
 // Only raw memory is touched here and nothing but templates over this unit's own SIMD pack is instantiated, so code
 // compiled for a newer processor cannot leak into the rest of the program.
 
+#include <immintrin.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -9,6 +11,7 @@
 #include <type_traits>
 
 #include "lbm/kernel.hpp"
+#include "lbm/vreman.hpp"
 
 namespace puffin::lbm::PUFFIN_ISA {
 namespace {
@@ -25,6 +28,13 @@ inline Pack<T> load_float(const float* p) {
   return v;
 }
 
+/// Whether a masked load or store costs no more than a plain one.
+#ifdef __AVX512F__
+constexpr bool masked = true;
+#else
+constexpr bool masked = false;
+#endif
+
 /// Minimum and maximum as the processor does them: the second operand where either is not a number.
 template <class P>
 [[gnu::always_inline]] inline P minimum(const P& a, const P& b) {
@@ -37,6 +47,8 @@ template <class P>
 
 // The parts of this unit, in this namespace.
 #include "lbm/kernel_fluxes.inc.hpp"
+#include "lbm/kernel_gradients.inc.hpp"
+#include "lbm/kernel_pack.inc.hpp"
 #include "lbm/kernel_sweep.inc.hpp"
 #include "lbm/kernel_walls.inc.hpp"
 
@@ -47,6 +59,9 @@ FluxKernel<float> fluxes_float() { return &fluxes<float>; }
 FluxKernel<double> fluxes_double() { return &fluxes<double>; }
 WallKernel<float> walls_float() { return &walls<float>; }
 WallKernel<double> walls_double() { return &walls<double>; }
+VelocityKernel<float> velocities_float() { return &velocities<float>; }
+VelocityKernel<double> velocities_double() { return &velocities<double>; }
+GradientKernel gradients() { return &find_gradients; }
 template <class T>
 Kernel<T> kernel_of(Law law, bool rescale) {
   if (rescale) return &sweep<T, Rr3Rescaled>;
@@ -57,6 +72,8 @@ Kernel<T> kernel_of(Law law, bool rescale) {
       return &sweep<T, Trt>;
     case Law::central_moments:
       return &sweep<T, CentralMoments>;
+    case Law::hrr:
+      return &sweep<T, Hrr>;
     case Law::rr3:
       break;
   }

@@ -7,8 +7,10 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "lbm/link_schedule.hpp"
 #include "lbm/populations.hpp"
 #include "lbm/slip.hpp"
+#include "lbm/wall_sides.hpp"
 
 namespace puffin::lbm {
 
@@ -29,7 +31,8 @@ struct Cut {
 /// The surface without its periodic faces, and the shifts under which it repeats.
 class CutFinder {
  public:
-  CutFinder(const Rows& rows, const LinkGeometry& surface) : rows_(rows), surface_(surface) {
+  CutFinder(const Rows& rows, const LinkGeometry& surface, const CellKinds& kinds)
+      : rows_(rows), surface_(surface), kinds_(kinds) {
     const TriangleMesh& mesh = *surface.mesh;
     auto kept = std::make_shared<TriangleMesh>();
     kept->vertices = mesh.vertices;
@@ -55,7 +58,8 @@ class CutFinder {
   std::vector<Cut> cuts(const Run& run, std::ptrdiff_t slot, std::size_t& missed) const {
     std::vector<Cut> found;
     const Vec3 centre = rows_.centre(slot);
-    bool candidate = false;
+    const bool in_fluid = is_fluid(slot);
+    bool candidate = !in_fluid;
     for (int i = 1; i < d3q19::q && !candidate; ++i) candidate = is_solid(slot + neighbour_offset(run, i));
     const double reach = 1.4143 * rows_.dx();
     for (std::size_t k = 0; k < shifts_.size() && !candidate && tree_; ++k)
@@ -63,7 +67,13 @@ class CutFinder {
     if (!candidate) return found;
     for (int i = 1; i < d3q19::q; ++i) {
       const auto& c = d3q19::velocity[i];
-      const bool solid = is_solid(slot + neighbour_offset(run, i));
+      const std::ptrdiff_t beside = slot + neighbour_offset(run, i);
+      const bool solid = is_solid(beside);
+      if (!in_fluid || (!solid && !is_fluid(active(beside)))) {
+        if (solid || parted(slot, active(beside)))
+          found.push_back({static_cast<std::int8_t>(i), !solid, patch_near(slot), 0.5F});
+        continue;
+      }
       double t = 2.0;
       int triangle = -1;
       for (const Vec3& shift : shifts_) {
@@ -93,6 +103,20 @@ class CutFinder {
     const auto c = rows_.cell(slot);
     return rows_.active_slot(c[0], c[1], c[2]) < 0;
   }
+  std::ptrdiff_t active(std::ptrdiff_t slot) const {
+    const auto c = rows_.cell(slot);
+    return rows_.active_slot(c[0], c[1], c[2]);
+  }
+  bool is_fluid(std::ptrdiff_t slot) const { return kinds_.fluid.empty() || kinds_.fluid[slot] != 0; }
+  /// A thin wall lies between two computed cells.
+  bool parted(std::ptrdiff_t a, std::ptrdiff_t b) const {
+    const WallPlace *at_a = kinds_.sides->of(a), *at_b = kinds_.sides->of(b);
+    return at_a != nullptr && at_b != nullptr && kinds_.sides->parted(*at_a, *at_b);
+  }
+  std::int16_t patch_near(std::ptrdiff_t slot) const {
+    const WallPlace* place = kinds_.sides->of(slot);
+    return static_cast<std::int16_t>(place != nullptr ? surface_.patch_of_triangle[place->triangle] : -1);
+  }
   /// A diagonal between two active cells whose common neighbours are both solid passes through an edge of the wall.
   bool closed_corner(const Run& run, std::ptrdiff_t slot, const std::array<int, 3>& c) const {
     int solid = 0;
@@ -105,6 +129,7 @@ class CutFinder {
 
   const Rows& rows_;
   const LinkGeometry& surface_;
+  const CellKinds& kinds_;
   std::unique_ptr<TriangleTree> tree_;
   std::vector<int> original_;  // triangle of the reduced mesh -> triangle of the surface
   std::vector<Vec3> shifts_;
@@ -123,9 +148,10 @@ Interpolation interpolation(double q, bool behind_open, bool own_valid) {
 
 }  // namespace
 
-Links build_links(const Rows& rows, const LinkGeometry& surface, WallScheme scheme) {
+Links build_links(const Rows& rows, const LinkGeometry& surface, WallScheme scheme, const CellKinds& kinds) {
   const auto& runs = rows.runs();
-  const CutFinder finder(rows, surface);
+  const bool half = scheme != WallScheme::bouzidi;
+  const CutFinder finder(rows, surface, kinds);
   // Find the cuts of every run in parallel, then lay them out in order.
   std::vector<std::vector<std::vector<Cut>>> of_run(runs.size());
   std::vector<std::size_t> missed(runs.size(), 0);
@@ -163,7 +189,7 @@ Links build_links(const Rows& rows, const LinkGeometry& surface, WallScheme sche
           if (slot < other) links.thin.push_back({slot, static_cast<std::int32_t>(r), cut.direction, p});
         } else if (kind_of(cut) == BoundaryKind::wall) {
           walls |= 1U << cut.direction;
-          if (scheme == WallScheme::halfway || cut.q >= 0.5F) far |= 1U << cut.direction;
+          if (half || cut.q >= 0.5F) far |= 1U << cut.direction;
         } else {
           const auto& boundary = surface.boundaries[cut.patch];
           const auto& c = d3q19::velocity[cut.direction];
@@ -215,7 +241,7 @@ Links build_links(const Rows& rows, const LinkGeometry& surface, WallScheme sche
         const auto cut = std::find_if(cuts.begin(), cuts.end(), [&](const Cut& c) { return c.direction == i; });
         const std::size_t at = w.coefficient + static_cast<std::size_t>(k++) * w.count + n;
         const int o = d3q19::opposite(i);
-        const double q = scheme == WallScheme::halfway ? 0.5 : cut->q;
+        const double q = half ? 0.5 : cut->q;
         links.partner[at] = interpolation(q, !(any >> o & 1U), !(thin >> o & 1U)).weight;
         const int patch = cut->patch < 0 ? wall_patch : cut->patch;
         links.wall_patch[at] = static_cast<std::int16_t>(patch);
@@ -232,22 +258,6 @@ Links build_links(const Rows& rows, const LinkGeometry& surface, WallScheme sche
       }
     }
   }
-  // Parts of about 512 wall cells.
-  links.wall_chunks.push_back(0);
-  int cells = 0;
-  for (std::size_t w = 0; w < links.walls.size(); ++w) {
-    cells += links.walls[w].count;
-    if (cells >= 512 || w + 1 == links.walls.size()) {
-      links.wall_chunks.push_back(w + 1);
-      cells = 0;
-    }
-  }
-
-  links.outlet_chunks.push_back(0);
-  for (std::size_t k = 1; k <= links.outlets.size(); ++k)
-    if (k == links.outlets.size() ||
-        (k - links.outlet_chunks.back() >= 256 && links.outlets[k].slot != links.outlets[k - 1].slot))
-      links.outlet_chunks.push_back(k);
 
   // Inlets: the mean speed over the cells of the opening is the one asked for. On a grid that does not fit the opening
   // the cells cover a slightly different area; keeping the speed keeps the dynamic head, to which the pressure drop is
@@ -287,6 +297,7 @@ Links build_links(const Rows& rows, const LinkGeometry& surface, WallScheme sche
   }
 
   join_slip_links(rows, links.slip);
+  links.schedule = std::make_shared<const LinkSchedule>(schedule_links(rows, links));
 
   for (const auto& [ghost, active] : rows.periodic_images()) {
     const auto g = rows.cell(ghost);

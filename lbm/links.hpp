@@ -7,11 +7,13 @@
 //   q <  1/2:  f_in = 2q f_out + (1-2q) f_out(x - c)        q >= 1/2:  f_in = f_out/(2q) + (1 - 1/(2q)) f_own,
 // f_own the post-collision population of the cell in the returning direction.
 // Source: Bouzidi, Firdaouss & Lallemand, Phys. Fluids 13, 3452 (2001). Each cell's mass imbalance over its cut links
-// is returned over them in proportion to the lattice weights, so that the air's mass is conserved to round-off.
+// goes into its population at rest, so that the air's mass is conserved to round-off and no momentum is added (given
+// back over the links it displaced inclined walls twice as far: docs/decisions/0007-walls.md).
 // Half-way bounce-back is the same with q = 1/2 everywhere.
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -22,7 +24,16 @@
 namespace puffin::lbm {
 
 enum class BoundaryKind { wall, velocity_inlet, pressure_outlet, periodic, slip };
-enum class WallScheme { bouzidi, halfway };
+enum class WallScheme { bouzidi, halfway, ibm, psm };
+
+class WallSides;
+
+/// For walls that act on whole cells (ibm, psm): which computed cells have their centre in the fluid, and where the
+/// walls are. Links between computed cells are then open but for thin walls; links out of them reflect half-way.
+struct CellKinds {
+  std::vector<std::uint8_t> fluid;  // by slot
+  std::shared_ptr<const WallSides> sides;
+};
 
 /// What happens at one patch of the surface.
 struct Boundary {
@@ -53,14 +64,15 @@ struct SlipLink {
   std::int16_t patch = 0;
 };
 
+struct LinkSchedule;
+
 struct Links {
-  std::vector<WallRun> walls;                // in the order of the rows
-  std::vector<std::size_t> wall_chunks;      // boundaries of the parts given to threads
-  std::vector<float> partner;                // weight of f_own (far) or f_out(x-c); that of f_out is 1 - partner
-  std::vector<float> moving;                 // population gained for a unit wall speed; empty when no wall moves
-  std::vector<std::int16_t> wall_patch;      // per coefficient
-  std::vector<OpeningLink> inlets, outlets;  // sorted by slot
-  std::vector<std::size_t> outlet_chunks;    // boundaries of the parts given to threads; no cell is divided
+  std::vector<WallRun> walls;                    // in the order of the rows
+  std::vector<float> partner;                    // weight of f_own (far) or f_out(x-c); that of f_out is 1 - partner
+  std::vector<float> moving;                     // population gained for a unit wall speed; empty when no wall moves
+  std::vector<std::int16_t> wall_patch;          // per coefficient
+  std::vector<OpeningLink> inlets, outlets;      // sorted by slot
+  std::shared_ptr<const LinkSchedule> schedule;  // when walls, inlets and outlets are applied
   /// Links between two active cells with a wall between them (thinner than a cell); never in `walls`.
   struct ThinLink {
     std::ptrdiff_t slot = 0;
@@ -89,6 +101,6 @@ struct LinkGeometry {
 };
 
 /// Finds every cut link. Throws std::runtime_error if an opening got no link at all.
-Links build_links(const Rows& rows, const LinkGeometry& surface, WallScheme scheme);
+Links build_links(const Rows& rows, const LinkGeometry& surface, WallScheme scheme, const CellKinds& kinds = {});
 
 }  // namespace puffin::lbm

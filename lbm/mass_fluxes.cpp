@@ -97,6 +97,7 @@ FluxRoutes find_routes(const Air& air, FaceFluxes& fluxes) {
         routes.slips.push_back({link.source, link.source_run, link.source_direction, static_cast<std::int8_t>(d),
                                 static_cast<std::int8_t>(in[d]), in[d] > 0 ? link.source : link.slot});
   }
+  routes.band = find_band_fluxes(air, fluxes);
   for (const auto& [ghost, active] : rows.periodic_images()) {
     routes.images.push_back({ghost, active});
     for (int d = 0; d < 3; ++d)
@@ -115,7 +116,7 @@ void find_mass_fluxes(const Air& air, const FluxRoutes& routes, FaceFluxes& flux
         input.next = p.next;
         for (int d = 0; d < 3; ++d) {
           input.routes[d] = routes.shares[d].data();
-          input.open[d] = fluxes.open[d].data();
+          input.open[d] = routes.band.open[d].empty() ? fluxes.open[d].data() : routes.band.open[d].data();
           input.mass[d] = fluxes.mass[d].data();
         }
         input.density = fluxes.density.data();
@@ -139,6 +140,7 @@ void find_mass_fluxes(const Air& air, const FluxRoutes& routes, FaceFluxes& flux
               s.sign * static_cast<double>(p.departed(air.rows.runs()[s.run], s.source, s.direction, last));
       },
       air.populations);
+  book_band_fluxes(routes.band, fluxes);
   for (const auto& image : routes.images)
     for (int d = 0; d < 3; ++d) fluxes.mass[d][image.ghost] = fluxes.mass[d][image.active];
 }

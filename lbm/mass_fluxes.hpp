@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "lbm/air.hpp"
+#include "lbm/band_fluxes.hpp"
 #include "lbm/scalars/face_fluxes.hpp"
 
 namespace puffin::lbm {
@@ -38,6 +39,7 @@ struct FluxRoutes {
     std::ptrdiff_t ghost, active;
   };
   std::vector<Copy> images;  // periodic ghosts repeat the faces of the cells they mirror
+  BandFluxes band;           // of a wall with markers
 };
 
 /// Finds the routes and marks which faces are open; sizes all arrays of `fluxes`.

@@ -105,6 +105,7 @@ class Checks {
     const Numerics& n = c_.numerics;
     if (n.lattice_speed > 0.3)
       say("numerics.lattice_speed", "beyond 0.3 no scheme here is stable; 0.05 to 0.15 is usual");
+    if (n.hrr_sigma > 1.0) say("numerics.hrr_sigma", "is a share, at most 1; 0.98 is usual and 1 is rr3");
     if (n.smagorinsky_constant > 1.0) say("numerics.smagorinsky_constant", "must be below 1; 0.1 to 0.17 is usual");
     const bool amplitude = a.initial_velocity.norm() > 0.0 || n.reference_speed;
     if ((a.initial == InitialField::taylor_green || a.initial == InitialField::shear_layer) && !amplitude)
@@ -154,9 +155,12 @@ class Checks {
     if (c.fill)
       if (const auto* patch = std::get_if<std::string>(&c.fill->at)) known_patch("carriers.fill.at", *patch);
     adhesion("carriers.adhesion", c.adhesion);
-    adhesion("carriers.walls.adhesion", c.wall_adhesion);
+    // What the walls take over from the carriers is reported there.
+    if (c.wall_adhesion.hamaker != c.adhesion.hamaker || c.wall_adhesion.surface_energy != c.adhesion.surface_energy)
+      adhesion("carriers.walls.adhesion", c.wall_adhesion);
     elasticity("carriers", c.contact, c.adhesion);
-    elasticity("carriers.walls", c.wall_contact, c.wall_adhesion);
+    if (!findings_.broken("carriers.contact.restitution"))
+      elasticity("carriers.walls", c.wall_contact, c.wall_adhesion);
     if (c.contact.max_overlap > 0.5) say("carriers.contact.max_overlap", "must be at most 0.5 of the radius");
     if (c_.fines && !c_.fines->micromodels.empty() && c.fines_each == 0.0)
       say("carriers.fines_each", "[fines] names micro-models, but the carriers carry no fines: give fines_each");

@@ -28,6 +28,12 @@ Cell collide(const Cell& f, const Vector& force, double tau, double les = 0.0) {
   if constexpr (requires { &L::template relax<double>; }) {
     CellState<double> s;
     find_state<true>(get, F, les, s);
+    if constexpr (requires { &L::template blend<double>; }) {
+      // A velocity field whose strain rate agrees with the stress, Pi = -2/3 rho tau S: the blend must change nothing.
+      double strain[6];
+      for (int n = 0; n < 6; ++n) strain[n] = -3.0 * s.p[n] / ((1.0 + s.drho) * twice_tau(s.p, c, les));
+      L::blend(c, les, strain, s);
+    }
     const double keep = L::relax(c, les, s);
     for (double& p : s.p) p *= keep;
     L::template assemble<true>(s, F, put);
@@ -78,7 +84,7 @@ Cell equilibrium(double drho, const Vector& u) {
 
 template <class L>
 class CollisionLaw : public testing::Test {};
-using Laws = testing::Types<Rr3, CentralMoments, Trt, Bgk>;
+using Laws = testing::Types<Rr3, Hrr, CentralMoments, Trt, Bgk>;
 TYPED_TEST_SUITE(CollisionLaw, Laws);
 
 // Sums of 19 numbers below 1, some ten roundings each: 1e-15 times a few.
@@ -213,6 +219,28 @@ TEST(Trt, RelaxesTheOddPartWithTheMagicRate) {
   f[1] = -2e-3, f[2] = 2e-3;                              // and back to zero
   const Cell after = collide<Trt>(f, {0, 0, 0}, 0.6);
   EXPECT_NEAR(after[7] - after[8], (1.0 - 1.0 / 2.375) * 2e-3, rounding);
+}
+
+TEST(Hrr, TakesTheRestOfTheStressFromTheStrainRate) {
+  // A cell without stress of its own in a field with S: Pi = -(1 - sigma) 2/3 rho tau S.
+  CollisionConstants c;
+  c.tau0 = 0.7;
+  c.hrr_sigma = 0.9;
+  const double strain[6] = {2e-3, -1e-3, -1e-3, 5e-4, -3e-4, 7e-4};
+  CellState<double> s;
+  s.drho = 0.05;
+  for (double& p : s.p) p = 0.0;
+  Hrr::blend(c, 0.0, strain, s);
+  for (int n = 0; n < 6; ++n) EXPECT_NEAR(s.p[n], -0.1 * 2.0 / 3.0 * 1.05 * 0.7 * strain[n], 1e-18);
+}
+
+TEST(PrescribedEddyViscosity, IsAddedToTheMolecularOne) {
+  // tau = tau0 + 3 nu_t, whatever the stress.
+  CollisionConstants c;
+  c.tau0 = 0.5003;
+  c.from_stress = 0.0;
+  const double stress[6] = {1e-3, 2e-3, -3e-3, 4e-4, 0, 1e-4}, nu_t = 2.5e-3;
+  EXPECT_NEAR(0.5 * twice_tau(stress, c, prescribed_les(nu_t, c.tau0)), 0.5003 + 3.0 * nu_t, 1e-15);
 }
 
 TEST(Rr3Rescaled, IsTheLawItselfWhenTheStepStays) {

@@ -29,6 +29,7 @@ struct CarrierSummary {
   double retained_fraction = 0.0;
   std::optional<double> first_motion, first_emitted, last_emitted;  // [s]
   std::optional<double> RDF;                                        // retained mass over the dose
+  std::optional<double> momentum_error;  // impulse given less impulse taken by the air, over the impulse exchanged
 };
 
 struct MechanismShares {
@@ -48,6 +49,7 @@ struct CollisionSummary {
   double wall = 0.0, particle = 0.0;
   std::optional<double> median_per_carrier, median_per_emitted_carrier;
   std::optional<double> mean_wall_energy, mean_particle_energy;  // [J]
+  std::optional<double> largest_overlap;                         // of any contact, part of the (smaller) diameter
 };
 
 struct SkippedWork {
@@ -108,6 +110,9 @@ struct Summary {
 void write_summary(const std::filesystem::path& file, const Summary& summary);
 /// Throws OutputError if the file is missing or is no summary. Unknown keys are ignored, missing ones keep defaults.
 Summary read_summary(const std::filesystem::path& file);
+/// Writes summary.csv beside summary.json: a row `quantity,value` for every number and text in it, SI units; the
+/// quantity is the path ("carriers.RDF"), elements of lists go by their name. Throws OutputError.
+void write_summary_table(const std::filesystem::path& run);
 /// The text of summary.json; for `--json`.
 std::string summary_json(const Summary& summary);
 /// The text of the `fines` block alone; for `puffin replay --json`.

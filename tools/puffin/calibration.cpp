@@ -51,6 +51,8 @@ Calibration calibrate(const cases::Numerics& n) {
   options.law = cases::law_of(n.collision);
   options.double_precision = n.precision == cases::Precision::float64;
   options.smagorinsky = n.les == cases::Les::none ? 0.0 : n.smagorinsky_constant;
+  options.eddy = n.les == cases::Les::vreman ? lbm::Eddy::vreman : lbm::Eddy::smagorinsky;
+  options.hrr_sigma = n.hrr_sigma;
   lbm::Air air = lbm::make_air(full_box(edge), surface, options);
   lbm::CollisionConstants constants;
   constants.tau0 = 0.505;
@@ -60,8 +62,7 @@ Calibration calibrate(const cases::Numerics& n) {
   int steps = 0;
   Clock::time_point begin = Clock::now();
   for (bool warm = false; !warm || seconds_since(begin) < 0.8; ++steps) {
-    lbm::collide_and_stream(constants, drive, air);
-    lbm::apply_links(drive, air);
+    lbm::advance_air(constants, drive, air);
     if (!warm && seconds_since(begin) > 0.2) {  // caches, pages and clock speed have settled
       warm = true;
       steps = 0;

@@ -58,6 +58,7 @@ output::FieldFrame field_frame(const cases::Simulation& s, const cases::FieldOut
     if (run.y < block.low[1] || run.y >= block.high[1] || run.z < block.low[2] || run.z >= block.high[2]) continue;
     for (int n = std::max(0, block.low[0] - run.x); n < run.count && run.x + n < block.high[0]; ++n) {
       const std::ptrdiff_t slot = run.first + n;
+      if (!air.is_fluid(slot)) continue;
       const std::size_t at =
           (run.x + n - block.low[0]) +
           static_cast<std::size_t>(frame.size[0]) *

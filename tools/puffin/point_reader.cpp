@@ -44,7 +44,7 @@ PointReader::Mean PointReader::mean_of_cells(const cases::Simulation& s, const V
     }
     if (w <= 1e-9) continue;
     const std::ptrdiff_t slot = rows.active_slot(c[0], c[1], c[2]);
-    if (slot < 0) continue;
+    if (slot < 0 || !s.state.air->is_fluid(slot)) continue;
     const PointReading r = read_cell(s, slot);
     mean.reading.velocity += w * r.velocity;
     mean.reading.pressure += w * r.pressure;

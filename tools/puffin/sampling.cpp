@@ -82,6 +82,7 @@ Totals read_totals(const cases::Simulation& s) {
         [&](const Range& range, Sums sum) {
           for (std::size_t r = range.begin(); r < range.end(); ++r)
             for (int n = 0; n < runs[r].count; ++n) {
+              if (!s.state.air->is_fluid(runs[r].first + n)) continue;
               const auto m = lbm::moments_at(*s.state.air, runs[r].first + n);
               const Vec3 u(m.ux, m.uy, m.uz);
               sum.energy += 0.5 * u.squaredNorm();
@@ -93,7 +94,7 @@ Totals read_totals(const cases::Simulation& s) {
           return Sums{a.energy + b.energy, a.momentum + b.momentum};
         });
     const double speed = s.state.scale.speed(), dx = s.state.air->rows.dx();
-    totals.kinetic_energy = sums.energy * speed * speed / static_cast<double>(s.state.air->rows.active_cells());
+    totals.kinetic_energy = sums.energy * speed * speed / static_cast<double>(s.state.air->fluid_cells);
     totals.air_momentum = sums.momentum * (speed * s.models.air.density * dx * dx * dx);
   }
   const auto& c = s.state.carriers.carriers;
@@ -121,6 +122,7 @@ Layer read_layer(const cases::Simulation& s, int axis, int index) {
       const PointReading r = read_cell(s, run.first + n);
       const double u = r.velocity[axis], density = 1.0 + s.state.scale.density_excess_lu(r.pressure);
       layer.flow += density * u * rows.dx() * rows.dx();
+      if (!s.state.air->is_fluid(run.first + n)) continue;  // behind a wall: moves air, has no pressure of the fluid
       layer.pressure += r.pressure;
       layer.flux += u;
       layer.carried += u * total_pressure(s, r);

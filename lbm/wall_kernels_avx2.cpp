@@ -1,0 +1,3 @@
+// The wall kernels for avx2; the flags are set in lbm/CMakeLists.txt.
+#define PUFFIN_ISA avx2
+#include "lbm/wall_kernels.inc.hpp"

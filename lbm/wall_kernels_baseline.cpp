@@ -1,0 +1,3 @@
+// The wall kernels for baseline; the flags are set in lbm/CMakeLists.txt.
+#define PUFFIN_ISA baseline
+#include "lbm/wall_kernels.inc.hpp"
