@@ -1,4 +1,5 @@
-// One exchange interval on one page. The order, and why it is this:
+// One exchange interval on one page. Long because the whole order of the physics stands here. The order, and why it is
+// this:
 //   air steps     with the carriers' reaction of the interval before (explicit, as the air is 1,000 times faster)
 //   interpolation of the air at the carriers' present places, through the same stencils that carried their reaction
 //   carriers      over the same interval, drag semi-implicit; what drag gave them is what the air will lose next
