@@ -44,6 +44,9 @@ TEST(Checkpoint, TheSceneHasWhatACheckpointMustKeep) {
     touching = touching || s.carriers.contacts.size() > s.carriers.free_contacts.size();
   }
   EXPECT_TRUE(s.airborne);
+  double drift = 0.0;
+  for (const double v : s.fines_drift[0]) drift = std::max(drift, std::abs(v));
+  EXPECT_GT(drift, 0.0);
   EXPECT_GT(s.fines.to_wall.value(), 0.0);
   EXPECT_GT(s.collisions.wall, 0.0);
   EXPECT_FALSE(s.departures.empty());
