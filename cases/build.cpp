@@ -5,8 +5,8 @@
 #include "cases/check_boundaries.hpp"
 #include "cases/derived.hpp"
 #include "cases/inlet_profile.hpp"
-#include "cases/untagged_openings.hpp"
 #include "cases/room.hpp"
+#include "cases/untagged_openings.hpp"
 
 namespace puffin::cases {
 

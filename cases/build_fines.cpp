@@ -4,6 +4,7 @@
 #include "cases/build.hpp"
 #include "cases/micromodel_file.hpp"
 #include "coupling/frozen_fluxes.hpp"
+#include "coupling/regain_fines.hpp"
 
 namespace puffin::cases {
 
@@ -70,6 +71,54 @@ lbm::ScalarLaw law_of(const Scalar& scalar) {
   return law;
 }
 
+/// What the inertia of the fines does, and which triangle a cell beside a wall belongs to.
+void build_drift(Simulation& s) {
+  const Fines& f = *s.description.fines;
+  const lbm::Rows& rows = s.state.air->rows;
+  const bool inertia = f.wall_deposition != WallDeposition::none;
+  bool absorbs = false;
+  for (const Scalar& scalar : f.scalars) absorbs = absorbs || scalar.wall == ScalarWall::absorb;
+  if (!inertia && !absorbs) return;
+  std::vector<char> opening(s.surface.mesh.triangles.size(), 0);
+  for (std::size_t t = 0; t < opening.size(); ++t) {
+    const int patch = s.surface.patches.of_triangle[t];
+    opening[t] = patch >= 0 && static_cast<std::size_t>(patch) < s.models.patches.size() &&
+                 (s.models.patches[static_cast<std::size_t>(patch)].is_inlet ||
+                  s.models.patches[static_cast<std::size_t>(patch)].is_outlet);
+  }
+  const auto walls = coupling::find_wall_cells(rows, s.state.fluxes, *s.tree, opening);
+  s.models.triangle_of_slot.assign(rows.slots(), -1);
+  for (const auto& cell : walls) {  // the nearest comes first
+    int& triangle = s.models.triangle_of_slot[static_cast<std::size_t>(cell.slot)];
+    if (triangle < 0) triangle = cell.triangle;
+  }
+  if (!inertia) return;
+  coupling::FinesDrift drift;
+  drift.response_time = coupling::response_time(f.diameter, f.density, s.description.air.viscosity);
+  drift.gravity = f.gravity;
+  drift.deposits = f.wall_deposition == WallDeposition::inertial;
+  drift.walls = walls;
+  if (s.models.frozen_air) {
+    coupling::set_frozen_drift(rows, s.models.frozen_air, drift, s.state.fines_drift);
+    coupling::add_drift(rows, s.state.routes, s.state.scale, drift, s.state.fines_drift, s.state.fluxes);
+  }
+  s.models.drift = std::move(drift);
+}
+
+/// Fines that come back to carriers.
+void build_regain(Simulation& s) {
+  const Fines& f = *s.description.fines;
+  if (!(f.reattachment > 0.0 || f.pick_up > 0.0)) return;
+  coupling::Regain regain;
+  regain.sticking = f.reattachment;
+  regain.pick_up = f.pick_up;
+  regain.fine_diameter = f.diameter;
+  regain.response_time = coupling::response_time(f.diameter, f.density, s.description.air.viscosity);
+  for (int t = 0; t < static_cast<int>(s.surface.mesh.triangles.size()); ++t)
+    regain.area.push_back(s.surface.mesh.area(t));
+  s.models.regain = std::move(regain);
+}
+
 }  // namespace
 
 void build_fines(Simulation& s) {
@@ -85,6 +134,13 @@ void build_fines(Simulation& s) {
   s.models.scalars.skip_empty = n.skip.empty_cells;
   s.models.idle_transport = n.skip.idle_transport;
   s.models.transport_steps = n.skip.transport_steps;
+  if (f.turbulent_schmidt > 0.0 && (s.models.frozen_air || s.description.numerics.les != Les::smagorinsky))
+    throw std::invalid_argument(
+        "fines.turbulent_schmidt: fines are mixed by the unresolved eddies of air.model = \"lbm\" with numerics.les = "
+        "\"smagorinsky\"; set these, or leave it out");
+  s.models.turbulent_schmidt = f.turbulent_schmidt;
+  build_drift(s);
+  build_regain(s);
   const int sets = static_cast<int>(f.scalars.size());
   s.state.scalars = lbm::ScalarFields(air.rows, coupling::mechanisms * sets, patches_of_openings(air, s.state.routes));
   s.state.budget = lbm::ScalarBudget(air.rows, coupling::mechanisms * sets, static_cast<int>(s.models.patches.size()));

@@ -257,7 +257,7 @@ struct Carriers {
 };
 
 // ---------------------------------------------------------------- [fines]
-enum class WallDeposition { none, inertial };
+enum class WallDeposition { none, inertial, drift_only };
 enum class ScalarScheme { upwind, minmod, van_leer, mc };
 enum class ScalarWall { reflect, absorb };
 struct GaussianBlob {          // an initial cloud of `amount` fines in all
@@ -282,8 +282,12 @@ struct ScalarBoundary {  // a fixed value on a patch
 struct Fines {
   std::string micromodels;  // file as it can be opened; empty: nothing moves the fines (scalar scenes)
   WallDeposition wall_deposition = WallDeposition::none;
-  double diameter = 0.0;  // [m]
-  double density = 0.0;   // [kg/m^3]
+  double diameter = 0.0;             // [m]
+  double density = 0.0;              // [kg/m^3]
+  Vec3 gravity = Vec3(0, 0, -9.81);  // [m/s^2] on fines with inertia
+  double turbulent_schmidt = 0.0;    // of the unresolved eddies; 0: they mix no fines
+  double reattachment = 0.0;         // part of the airborne fines meeting a carrier that stays on it; 0: off
+  double pick_up = 0.0;              // part of the wall's fines in reach of a hit that the carrier takes; 0: off
   std::vector<Scalar> scalars;
   std::vector<ScalarBoundary> boundaries;
   bool operator==(const Fines&) const = default;

@@ -58,7 +58,8 @@ constexpr std::array adhesion_models{word(AdhesionModel::none, "none", yes),
 constexpr std::array parcel_scalings{word(ParcelScaling::ddpm, "ddpm", yes), word(ParcelScaling::energy, "energy", yes),
                                      word(ParcelScaling::mass, "mass", yes)};
 constexpr std::array wall_depositions{word(WallDeposition::none, "none", yes),
-                                      word(WallDeposition::inertial, "inertial", no)};
+                                      word(WallDeposition::inertial, "inertial", yes),
+                                      word(WallDeposition::drift_only, "drift-only", yes)};
 constexpr std::array schemes{word(ScalarScheme::upwind, "upwind", yes), word(ScalarScheme::minmod, "minmod", yes),
                              word(ScalarScheme::van_leer, "van-leer", yes), word(ScalarScheme::mc, "mc", yes)};
 constexpr std::array scalar_walls{word(ScalarWall::reflect, "reflect", yes), word(ScalarWall::absorb, "absorb", yes)};

@@ -31,6 +31,12 @@ std::filesystem::path verification_directory() { return folder_of("verify"); }
 
 std::filesystem::path bench_directory() { return folder_of("bench"); }
 
+std::filesystem::path stability_directory() {
+  std::error_code error;
+  const std::filesystem::path there = installed() / "stability";
+  return std::filesystem::is_directory(there, error) ? there : std::filesystem::path(PUFFIN_CASES_DIR) / "stability";
+}
+
 std::filesystem::path found_micromodels(const std::filesystem::path& file) {
   std::error_code error;
   if (file.is_absolute() || std::filesystem::exists(file, error)) return file;

@@ -1,4 +1,5 @@
-// One exchange interval on one page. The order, and why it is this:
+// One exchange interval on one page. Long because the whole order of the physics stands here. The order, and why it is
+// this:
 //   air steps     with the carriers' reaction of the interval before (explicit, as the air is 1,000 times faster)
 //   interpolation of the air at the carriers' present places, through the same stencils that carried their reaction
 //   carriers      over the same interval, drag semi-implicit; what drag gave them is what the air will lose next
@@ -22,6 +23,7 @@
 #include "coupling/volume_fraction.hpp"
 #include "dem/advance.hpp"
 #include "dem/open_contacts.hpp"
+#include "lbm/eddy_diffusion.hpp"
 #include "lbm/wall_schemes.hpp"
 
 namespace puffin::coupling {
@@ -247,9 +249,12 @@ void move_fines(const Models& models, std::int64_t steps, double interval, State
     s.release.by_contacts(s.events.begun, counted_from(models, s), s.carriers.carriers, *models.fines, s.cells, s.fines,
                           s.scalars);
     const auto& c = s.carriers.carriers;
+    if (models.regain) pick_up_from_walls(s.events.begun, counted_from(models, s), c, *models.regain, s.fines);
     std::vector<double> slip(c.size());
     for (std::size_t p = 0; p < c.size(); ++p) slip[p] = (s.loads[p].air_velocity - c.velocity[p]).norm();
     s.release.by_drag(s.stencils, slip, interval, c, *models.fines, s.fines, s.scalars);
+    if (models.regain && s.airborne)
+      reattach(s.stencils, slip, interval, s.scale.dx, c, *models.regain, s.fines, s.scalars);
     const double after = s.fines.to_air[0].value() + s.fines.to_air[1].value() + s.fines.to_air[2].value();
     s.airborne = s.airborne || after > before;
   }
@@ -275,6 +280,14 @@ void carry_fines(const Models& models, bool now, State& s) {
   if (computes_air(models, s)) {  // a frozen field's stay
     lbm::find_mass_fluxes(*s.air, s.routes, s.fluxes);
     if (!s.pores.cells.empty()) lbm::share_fluxes(*s.air, s.pores, s.routes, s.fluxes);
+    if (models.turbulent_schmidt > 0.0)
+      lbm::find_eddy_diffusion(*s.air, s.scale.relaxation_time(models.air.viscosity / models.air.density),
+                               models.turbulent_schmidt, s.fluxes);
+    if (models.drift) {
+      update_drift(s.air->rows, s.fluxes, s.scale, *models.drift,
+                   static_cast<double>(s.steps_since_scalars) * s.scale.dt, s.fines_drift);
+      add_drift(s.air->rows, s.routes, s.scale, *models.drift, s.fines_drift, s.fluxes);
+    }
   }
   try {
     lbm::advance_scalars(s.air->rows, s.fluxes, static_cast<double>(s.steps_since_scalars), options, s.scalars,
@@ -356,8 +369,7 @@ void follow_air(const Models& models, const Interval& interval, double until, St
     }
   }
   // The caller reads the air at `until`: with the forces of the walls as they belong to it.
-  if (computes_air(models, s) && s.time + interval.seconds >= until * (1.0 - 1e-12))
-    lbm::settle_walls(s.drive, *s.air);
+  if (computes_air(models, s) && s.time + interval.seconds >= until * (1.0 - 1e-12)) lbm::settle_walls(s.drive, *s.air);
   s.time += interval.seconds;
   move_fines(models, interval.steps, interval.seconds, s);
   carry_fines(models, s.time >= until * (1.0 - 1e-12), s);  // the caller reads them at `until`

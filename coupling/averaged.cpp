@@ -14,7 +14,7 @@ constexpr double nothing = 1e-7;  // a share of solid that is as good as none
 }  // namespace
 
 void follow_volume(const Models& models, int steps, State& s) {
-  if (!s.air || models.volume_fraction != VolumeFraction::averaged) return;
+  if (!s.air || !models.two_way || models.volume_fraction != VolumeFraction::averaged) return;
   lbm::PoreSpace& pores = s.pores;
   const bool first = pores.share.empty();
   if (first) pores = lbm::make_pore_space(*s.air);

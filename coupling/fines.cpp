@@ -59,6 +59,7 @@ Ledger ledger(const Fines& fines, const lbm::ScalarFields& fields, const lbm::Sc
   books.on_carriers = inside.value();
   books.on_emitted_carriers = outside.value();
   walls.add(fines.to_wall.value());
+  walls.add(-fines.picked_up.value());
   for (int m = 0; m < mechanisms; ++m) {
     const int scalar = scalar_index(set, static_cast<Mechanism>(m));
     const double deposited = lbm::absorbed(budget, scalar);
@@ -66,6 +67,8 @@ Ledger ledger(const Fines& fines, const lbm::ScalarFields& fields, const lbm::Sc
     shares.released = fines.to_air[m].value();
     shares.in_air = lbm::total(fields, scalar);
     shares.emitted = sum_over_patches(budget.left.at(scalar));
+    shares.deposited = deposited;
+    shares.regained = fines.regained[m].value();
     loaded.add(sum_over_patches(budget.entered.at(scalar)));
     walls.add(deposited);
     books.in_air += shares.in_air;

@@ -29,7 +29,7 @@ struct Fines {
 
   // by carrier id, of all real carriers of the entry
   std::vector<double> initial;
-  std::vector<double> left;           // still on the carrier, 0 <= left <= initial
+  std::vector<double> left;           // on the carrier now, >= 0; <= initial unless fines come back
   std::vector<std::uint8_t> emitted;  // 1: the carrier left the device, with its fines
   // by wall triangle
   std::vector<double> stuck;   // left there by carriers that hit it
@@ -38,6 +38,8 @@ struct Fines {
   double loaded = 0.0;  // on the carriers
   std::array<lbm::CompensatedSum, mechanisms> to_air;
   lbm::CompensatedSum to_wall;
+  std::array<lbm::CompensatedSum, mechanisms> regained;  // from the air back to carriers (regain_fines.hpp)
+  lbm::CompensatedSum picked_up;                         // likewise from walls
   std::int64_t without_air = 0;  // contacts so far outside the air that nothing could be released
   SlipHistory slip;              // for a replay with other laws
 };
@@ -66,6 +68,7 @@ struct Ledger {
   double emitted = 0.0;  // left with the air
   struct Shares {
     double released = 0.0, in_air = 0.0, emitted = 0.0;
+    double deposited = 0.0, regained = 0.0;  // from the air: on walls, back on carriers
   };
   std::array<Shares, mechanisms> by_mechanism;
 

@@ -10,10 +10,12 @@ set(PUFFIN_COUPLING_SOURCES
   drag_limit.cpp
   field_forces.cpp
   fines.cpp
+  fines_drift.cpp
   first_motion.cpp
   frozen_fluxes.cpp
   health.cpp
   kernel.cpp
+  regain_fines.cpp
   release_fines.cpp
   replay_fines.cpp
   self_disturbance.cpp

@@ -13,9 +13,11 @@
 #include "coupling/collisions.hpp"
 #include "coupling/drag.hpp"
 #include "coupling/fines.hpp"
+#include "coupling/fines_drift.hpp"
 #include "coupling/first_motion.hpp"
 #include "coupling/lift.hpp"
 #include "coupling/mesh_walls.hpp"
+#include "coupling/regain_fines.hpp"
 #include "coupling/release_fines.hpp"
 #include "coupling/scale.hpp"
 #include "coupling/time_step.hpp"
@@ -67,9 +69,14 @@ struct Models {
   bool settling = true;         // a dose settles first: its contacts before the first motion are not counted
   double carriers_start = 0.0;  // [s] until then carriers are held
   std::optional<micromodels::FinesModels> fines;
-  std::vector<double> diffusion;  // per scalar: Gamma / rho [m^2/s]
-  lbm::ScalarOptions scalars;     // diffusivity is set from `diffusion` each step
-  int steps_per_exchange = 4;     // air steps between two exchanges with moving carriers
+  double turbulent_schmidt = 0.0;   // of the eddies that the cells do not resolve; 0: they mix no fines
+  std::vector<double> diffusion;    // per scalar: Gamma / rho [m^2/s]
+  lbm::ScalarOptions scalars;       // diffusivity is set from `diffusion` each step
+  std::optional<FinesDrift> drift;  // fines have inertia
+  std::optional<Regain> regain;     // fines come back to carriers
+  std::vector<int>
+      triangle_of_slot;        // where walls can take fines: the nearest triangle to a cell beside a wall, else -1
+  int steps_per_exchange = 4;  // air steps between two exchanges with moving carriers
   int steps_per_exchange_asleep = 16;
   bool idle_transport = true;   // leave the transport out until fines are airborne
   bool transport_steps = true;  // transport in longer steps than the exchange interval where the flow allows it
@@ -142,7 +149,8 @@ struct State {
   std::int64_t steps_since_scalars = 0;
   double seconds_since_scalars = 0.0;
   double steps_per_scalar_update = 1.0;
-  bool airborne = false;  // fines have been released
+  bool airborne = false;      // fines have been released
+  DriftVelocity fines_drift;  // empty without Models::drift
 
   Effort effort;
   Extremes extremes;

@@ -45,8 +45,9 @@ void list_touches(Cluster& cluster) {
   }
 }
 
-/// A body was hit: the pairs around it must be looked at as often as the new contact.
-void warn_others(std::int32_t body, int level, const Ticks& ticks, Cluster& cluster) {
+/// A body was hit: what is around it must be looked at as often as the new contact. A contact that was to act longer
+/// gives back what its opening kick gave too much.
+void warn_others(std::int32_t body, int level, int now, double present, const Ticks& ticks, Cluster& cluster) {
   if (cluster.bodies[body].fixed) return;
   if (cluster.beside_begin.empty() || cluster.beside_of != cluster.touches.size()) {
     list_touches(cluster);
@@ -54,9 +55,13 @@ void warn_others(std::int32_t body, int level, const Ticks& ticks, Cluster& clus
   }
   for (std::int32_t n = cluster.beside_begin[body]; n < cluster.beside_begin[body + 1]; ++n) {
     const std::int32_t other = cluster.beside[n];
-    const Touch& touch = cluster.touches[other];
-    if (touch.live() || touch.lost || touch.level <= level) continue;
+    Touch& touch = cluster.touches[other];
+    if (touch.lost || touch.level <= level) continue;
+    const double planned = touch.planned;
     set_level(other, level, ticks, cluster);
+    const int next = ((now >> level) + 1) << level;
+    touch.planned = present - touch.looked_at + (next - now) * ticks.length;
+    kick(0.5 * (touch.planned - planned), touch, cluster);
   }
 }
 
@@ -87,7 +92,7 @@ double own_step(const Touch& touch, const Cluster& cluster) {
   if (!touch.live()) return touch.step;
   double stiffest = cluster.bodies[touch.a].contact_step;
   if (touch.b >= 0) stiffest = std::min(stiffest, cluster.bodies[touch.b].contact_step);
-  return std::min(touch.step, std::max(kicks_in_stiffest * stiffest, touch.contact_step));
+  return std::min(touch.step, kicks_in_stiffest * stiffest);
 }
 
 }  // namespace
@@ -173,7 +178,7 @@ void run_levels(double time, double remaining, const Rules& rules, Ticks& ticks,
       const Touch& touch = cluster.touches[i];
       if (!touch.live() || touch.memory.time_start < present - touch.elapsed) continue;
       for (const std::int32_t side : {touch.a, touch.b})
-        if (side >= 0) warn_others(side, touch.level, ticks, cluster);
+        if (side >= 0) warn_others(side, touch.level, now, present, ticks, cluster);
     }
     push_time = 0.5 * (before + ticks.length);
   }

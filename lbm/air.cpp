@@ -16,7 +16,6 @@ namespace puffin::lbm {
 
 using geometry::Vec3;
 
-
 Parity Air::parity() const {
   return std::visit([](const auto& p) { return p.next; }, populations);
 }

@@ -105,6 +105,8 @@ class Checks {
     const Numerics& n = c_.numerics;
     if (n.lattice_speed > 0.3)
       say("numerics.lattice_speed", "beyond 0.3 no scheme here is stable; 0.05 to 0.15 is usual");
+    if (a.viscosity == 0.0 && c_.carriers && c_.carriers->drag != Drag::none)
+      say("air.viscosity", "is 0, but the drag of carriers needs one; give a viscosity or carriers.drag = \"none\"");
     if (n.hrr_sigma > 1.0) say("numerics.hrr_sigma", "is a share, at most 1; 0.98 is usual and 1 is rr3");
     if (n.smagorinsky_constant > 1.0) say("numerics.smagorinsky_constant", "must be below 1; 0.1 to 0.17 is usual");
     const bool amplitude = a.initial_velocity.norm() > 0.0 || n.reference_speed;

@@ -137,7 +137,7 @@ void describe(Fields& io, Air& a) {
   io.choice("model", a.model, otherwise(AirModel::lbm));
   if (a.model == AirModel::frozen) describe_frozen(io, a.frozen);
   io.number("density", a.density, unit::density, Range::positive, otherwise(1.204));
-  io.number("viscosity", a.viscosity, unit::viscosity, Range::positive, otherwise(1.82e-5));
+  io.number("viscosity", a.viscosity, unit::viscosity, Range::non_negative, otherwise(1.82e-5));
   describe_body_force(io, a);
   describe_initial(io, a);
   io.list("boundary", a.boundaries, [](Fields& f, Boundary& b) { describe(f, b); });

@@ -261,7 +261,13 @@ void describe(Fields& io, Fines& fines, const std::optional<Carriers>& carriers)
   if (io.has("micromodels", !fines.micromodels.empty()))
     io.file("micromodels", fines.micromodels, micromodel_directories());
   io.choice("wall_deposition", fines.wall_deposition, otherwise(WallDeposition::none));
-  const bool drift = fines.wall_deposition == WallDeposition::inertial;
+  io.number("turbulent_schmidt", fines.turbulent_schmidt, unit::number, Range::non_negative, otherwise(0.0));
+  io.number("reattachment", fines.reattachment, unit::number, Range::fraction, otherwise(0.0));
+  io.number("pick_up", fines.pick_up, unit::number, Range::fraction, otherwise(0.0));
+  const bool drift = fines.wall_deposition != WallDeposition::none;
+  if (drift)
+    io.vector("gravity", fines.gravity, unit::acceleration,
+              otherwise(carriers ? carriers->gravity : Vec3(0, 0, -9.81)));
   if (drift || carriers || io.has("density", fines.density > 0.0))
     io.number(
         "density", fines.density, unit::density, Range::positive,
@@ -289,6 +295,11 @@ void describe(Fields& io, Fines& fines, const std::optional<Carriers>& carriers)
       i.number("amount", s.initial->amount, unit::number, Range::positive, required);
     });
   });
+  for (const auto& [key, value] : {std::pair{"reattachment", fines.reattachment}, {"pick_up", fines.pick_up}})
+    if (value > 0.0 && !carriers)
+      io.problem(key, "fines can come back only to carriers: give [carriers], or leave it out");
+    else if (value > 0.0 && fines.scalars.size() > 1)
+      io.problem(key, "with several [[fines.scalar]] carriers would regain other fines for each: keep one of them");
   if (fines.scalars.empty()) io.problem("scalar", "fines need at least one [[fines.scalar]] to travel in");
   io.list("boundary", fines.boundaries, [](Fields& f, ScalarBoundary& b) {
     f.text("patch", b.patch, required);

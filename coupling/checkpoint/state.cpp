@@ -40,9 +40,10 @@ void fields(auto& archive, Is<Extremes> auto& extremes) {
 }
 
 void fields(auto& archive, Is<Fines> auto& fines) {
-  auto& [initial, left, emitted, stuck, placed, loaded, to_air, to_wall, without_air, slip] = fines;
-  archive(initial, left, emitted, stuck, placed, loaded, to_air, to_wall, without_air, slip.seconds, slip.metres,
-          slip.asked);
+  auto& [initial, left, emitted, stuck, placed, loaded, to_air, to_wall, regained, picked_up, without_air, slip] =
+      fines;
+  archive(initial, left, emitted, stuck, placed, loaded, to_air, to_wall, regained, picked_up, without_air,
+          slip.seconds, slip.metres, slip.asked);
 }
 
 void fields(auto& archive, Is<Collisions> auto& collisions) {
@@ -67,10 +68,10 @@ void time_fields(auto& archive, Is<State> auto& state) {
   auto& [time, scale, step_factor, air, drive, inlet_way, cells, touched, carriers, fines, collisions, first_motion,
          departures, events, stencils, stencils_at, spread_on, samples, gradients, spreader, impulse_on_air, momentum,
          loads, pores, pressure_forces, release, scalars, budget, fluxes, routes, steps_since_scalars,
-         seconds_since_scalars, steps_per_scalar_update, airborne, effort, extremes] = state;
+         seconds_since_scalars, steps_per_scalar_update, airborne, fines_drift, effort, extremes] = state;
   archive(time, scale.dt, step_factor, inlet_way, collisions, departures, pores.share, stencils_at.position,
           stencils_at.radius, impulse_on_air, momentum, steps_since_scalars, seconds_since_scalars,
-          steps_per_scalar_update, airborne, effort, extremes);
+          steps_per_scalar_update, airborne, fines_drift, effort, extremes);
 }
 
 /// The lattice belongs to the case; of the air only what moves. What walls keep of their cells they find again from the
@@ -108,6 +109,8 @@ struct Sizes {
     if (!s.pores.share.empty() && s.pores.share.size() != slots) return false;
     if (s.collisions.energy.size() != triangles || s.fines.stuck.size() != triangles) return false;
     if (!s.carriers.carriers.id.empty() && static_cast<std::size_t>(s.carriers.carriers.id.back()) >= ids) return false;
+    for (const auto& drift : s.fines_drift)
+      if (!drift.empty() && drift.size() != slots) return false;
     if (s.stencils_at.position.size() != s.stencils_at.radius.size()) return false;
     if (!s.impulse_on_air.empty() && s.impulse_on_air.size() != s.stencils_at.position.size()) return false;
     return scalars_fit(s);

@@ -87,7 +87,7 @@ std::vector<std::array<int, 3>> least_area(const TriangleMesh& mesh, const std::
 
 }  // namespace
 
-FilledHoles fill_holes(TriangleMesh& mesh, double longest_rim) {
+FilledHoles fill_holes(TriangleMesh& mesh, double longest_rim, bool fill_single_facets) {
   FilledHoles filled;
   int solid = -1;
   for (const auto& rim : find_rims(mesh)) {
@@ -98,7 +98,8 @@ FilledHoles fill_holes(TriangleMesh& mesh, double longest_rim) {
       length += (mesh.vertices[rim[(i + 1) % rim.size()]] - mesh.vertices[rim[i]]).norm();
       middle += mesh.vertices[rim[i]] / static_cast<double>(rim.size());
     }
-    if (length > longest_rim || (rim.size() == 3 && is_a_triangle_already(mesh, rim))) continue;
+    const bool one_facet = fill_single_facets && rim.size() == 3;
+    if ((length > longest_rim && !one_facet) || (rim.size() == 3 && is_a_triangle_already(mesh, rim))) continue;
     if (solid < 0) {
       solid = static_cast<int>(mesh.solids.size());
       mesh.solids.push_back("filled-hole");

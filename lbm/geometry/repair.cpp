@@ -166,7 +166,8 @@ std::vector<Repair> repair(TriangleMesh& mesh, const RepairOptions& options) {
   Repair turned{.what = "turned facets"};
   turn_facets(mesh, disagreeing(mesh, Adjacency(mesh)), turned);
 
-  const FilledHoles filled = fill_holes(mesh, options.largest_hole > 0.0 ? options.largest_hole : diagonal / 20.0);
+  const bool usual = !(options.largest_hole > 0.0);
+  const FilledHoles filled = fill_holes(mesh, usual ? diagonal / 20.0 : options.largest_hole, usual);
   turn_facets(mesh, inside_out(mesh), turned);
   turned.message = "turned facets: " + std::to_string(turned.count);
   note(std::move(turned));

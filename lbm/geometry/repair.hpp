@@ -11,7 +11,8 @@ namespace puffin::lbm::geometry {
 
 struct RepairOptions {
   double weld_tolerance = 0.0;  // [m]; 0: weld_fraction of the bounding box diagonal
-  double largest_hole = 0.0;    // [m] holes with a longer rim stay open; 0: a twentieth of the bounding box diagonal
+  double largest_hole = 0.0;    // [m] holes with a longer rim stay open; 0: a twentieth of the bounding box
+                                // diagonal, and every hole of three edges: one missing facet
 };
 
 /// One thing that was done.

@@ -109,10 +109,11 @@ std::string likely_unit(double longest) {
     double metres;
   };
   // Read as `from`, meant as `to`.
-  constexpr std::array<Unit, 5> units{{{"m", 1.0}, {"inch", 0.0254}, {"cm", 1e-2}, {"mm", 1e-3}, {"um", 1e-6}}};
+  // The likeliest first.
+  constexpr std::array<Unit, 5> units{{{"mm", 1e-3}, {"m", 1.0}, {"inch", 0.0254}, {"cm", 1e-2}, {"um", 1e-6}}};
   // Too large: taken for m; too small: taken for mm.
   for (const Unit& from :
-       longest > 1.0 ? std::array{units[0], units[2], units[3]} : std::array{units[3], units[0], units[2]})
+       longest > 1.0 ? std::array{units[1], units[3], units[0]} : std::array{units[0], units[1], units[3]})
     for (const Unit& to : units) {
       const double meant = longest / from.metres * to.metres;
       if (meant >= 5e-3 && meant <= 0.5)

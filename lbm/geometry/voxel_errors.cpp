@@ -151,8 +151,8 @@ Convergence convergence(const TriangleTree& tree, const Voxels& finest) {
     volume_floor.push_back(1e-6);
     surface_floor.push_back(1e-5 * dx);
   }
-  c.volume_order = order_of(c.dx, c.volume_error, volume_floor);
-  c.surface_order = order_of(c.dx, c.surface_error, surface_floor);
+  if (c.volume_error[0] > volume_floor[0]) c.volume_order = order_of(c.dx, c.volume_error, volume_floor);
+  if (c.surface_error[0] > surface_floor[0]) c.surface_order = order_of(c.dx, c.surface_error, surface_floor);
   return c;
 }
 

@@ -32,8 +32,8 @@ HiddenFaces hidden_faces(const TriangleTree& tree, const Voxels& voxels, const s
 void refuse_buried(const HiddenFaces& faces);
 
 /// Errors on the grids dx, sqrt(2) dx, 2 dx, 2 sqrt(2) dx, 4 dx, and the powers of dx that fit them best (least squares
-/// of the logarithms). No order where fewer than three grids have an error above rounding: the cells fit the surface.
-/// The error of a counted volume has a random sign and scatters; its order is that of a fit through scatter.
+/// of the logarithms). No order where the finest grid, or all but two, has no error above rounding: the cells fit the
+/// surface. The error of a counted volume has a random sign and scatters; its order is that of a fit through scatter.
 struct Convergence {
   std::vector<double> dx, volume_error, surface_error;  // [m], relative, [m]
   std::optional<double> volume_order, surface_order;

@@ -12,6 +12,7 @@
 #include "lbm/geometry/closing_caps.hpp"
 #include "lbm/geometry/row_crossings.hpp"
 #include "lbm/geometry/surface_check.hpp"
+#include "lbm/geometry/triangle_distance.hpp"
 
 namespace puffin::lbm::geometry {
 
@@ -82,11 +83,12 @@ void fill(const TriangleTree& tree, Voxels& box) {
   });
 }
 
-// Fluid cells that touch an opening: within one dx of one of its triangles, which is the nearest of all.
+// Fluid cells that touch an opening: within one dx of a point of it, with nothing between. (Not: whose nearest triangle
+// is one of an opening. In a slice one cell wide the periodic sides are as near as the opening, or nearer.)
 std::vector<std::int64_t> cells_at_openings(const TriangleTree& tree, const std::vector<char>& openings,
                                             const Voxels& voxels) {
   const TriangleMesh& mesh = tree.mesh();
-  std::vector<char> looked(voxels.fluid.size(), 0);
+  std::vector<char> found(voxels.fluid.size(), 0);
   std::vector<std::int64_t> result;
   for (std::size_t t = 0; t < openings.size(); ++t) {
     if (!openings[t]) continue;
@@ -103,10 +105,11 @@ std::vector<std::int64_t> cells_at_openings(const TriangleTree& tree, const std:
       for (int j = low[1]; j <= high[1]; ++j) {
         for (int i = low[0]; i <= high[0]; ++i) {
           const std::int64_t cell = voxels.index(i, j, k);
-          if (!voxels.fluid[cell] || looked[cell]) continue;
-          looked[cell] = 1;
-          const Closest nearest = tree.closest(voxels.centre(i, j, k), voxels.dx);
-          if (nearest.triangle >= 0 && openings[nearest.triangle]) result.push_back(cell);
+          if (!voxels.fluid[cell] || found[cell]) continue;
+          const Vec3 centre = voxels.centre(i, j, k), way = nearest_on_triangle(centre, a, b, c).point - centre;
+          if (way.norm() > voxels.dx || tree.first_hit(centre, way, 1.0 - 1e-6)) continue;
+          found[cell] = 1;
+          result.push_back(cell);
         }
       }
     }

@@ -13,6 +13,7 @@
 #include "lbm/scalars/max_steps.hpp"
 #include "lbm/scalars/run_faces.hpp"
 #include "lbm/scalars/sweep.hpp"
+#include "lbm/scalars/wall_sinks.hpp"
 
 namespace puffin::lbm {
 
@@ -156,7 +157,8 @@ void sweep(const Update& u, const SweepKernel& kernel, int d, double steps, cons
                     u.fluxes.mass[d].data() + run.first,
                     u.fluxes.open[d].data() + run.first,
                     steps,
-                    u.fields.air.data() + run.first};
+                    u.fields.air.data() + run.first,
+                    u.fluxes.eddy[d].empty() ? nullptr : u.fluxes.eddy[d].data() + run.first};
   };
   for (int k = 0; k < scalars; ++k)
     for (const auto& [ghost, cell] : work.periodic[d]) u.concentration(k)[ghost] = u.concentration(k)[cell];
@@ -196,10 +198,10 @@ void sweep(const Update& u, const SweepKernel& kernel, int d, double steps, cons
 /// The most steps that explicit diffusion allows inside a sweep, see sweep.hpp: with nu = steps * rate, the air never
 /// below half,
 ///   faces * steps * diffusivity <= (1 - nu)^2 * least_air / 2.
-double explicit_steps(const ScalarLaw& law, double rate, double least_air) {
+double explicit_steps(const ScalarLaw& law, double diffusivity, double rate, double least_air) {
   const bool half_cells = law.wall == WallRule::absorb ||
                           std::any_of(law.fixed.begin(), law.fixed.end(), [](const auto& v) { return v.has_value(); });
-  const double b = (half_cells ? 4.0 : 2.0) * law.diffusivity / (0.5 * least_air);
+  const double b = (half_cells ? 4.0 : 2.0) * diffusivity / (0.5 * least_air);
   const double p = 2.0 * rate + b;
   return 2.0 / (p + std::sqrt(std::max(p * p - 4.0 * rate * rate, 0.0)));
 }
@@ -211,17 +213,28 @@ struct Plan {
   std::vector<bool> implicit;  // [scalar]
 };
 
-Plan plan(const Update& u, const StepLimit& limit, double remaining) {
+/// Largest diffusivity that all scalars have in common.
+double largest_eddy(const FaceFluxes& fluxes) {
+  double largest = 0.0;
+  for (const auto& faces : fluxes.eddy)
+    for (const double e : faces) largest = std::max(largest, e);
+  return largest;
+}
+
+Plan plan(const Update& u, const StepLimit& limit, double eddy, double remaining) {
   double longest = std::min(limit.steps, remaining);
   Plan p{longest, false, std::vector<bool>(u.fields.scalars(), false)};
   for (int k = 0; k < u.fields.scalars(); ++k) {
     const ScalarLaw& law = u.options.scalar[k];
-    if (law.diffusivity == 0.0) continue;
-    const double allowed = explicit_steps(law, u.options.cfl / limit.steps, limit.least_air);
-    if (1.5 * allowed < longest)
+    if (law.diffusivity + eddy == 0.0) continue;
+    const double rate = u.options.cfl / limit.steps;
+    double allowed = explicit_steps(law, law.diffusivity + eddy, rate, limit.least_air);
+    if (1.5 * allowed < longest && law.diffusivity > 0.0) {
       p.any_implicit = p.implicit[k] = true;
-    else
-      p.steps = std::min(p.steps, allowed);
+      if (eddy == 0.0) continue;
+      allowed = explicit_steps(law, eddy, rate, limit.least_air);  // its eddy part stays in the sweeps
+    }
+    p.steps = std::min(p.steps, allowed);
   }
   const double pieces = std::ceil(remaining / p.steps * (1.0 - 1e-12));
   if (!(pieces < 1e4))
@@ -241,12 +254,13 @@ void advance_scalars(const Rows& rows, const FaceFluxes& fluxes, double steps, c
   for (const ScalarLaw& law : options.scalar)
     for (const auto& value : law.fixed) all = all || (value && *value > 0.0);
 
+  const double eddy = largest_eddy(fluxes);
   budget.air_mismatch = std::max(budget.air_mismatch, air_mismatch(u));
   for (double elapsed = 0.0; elapsed < steps;) {
     if (!mark_busy_runs(rows, all, fields)) return;
     prepare(u, elapsed);
     const auto limit = [&] { return step_limit(rows, fluxes, fields.air, options.cfl, fields.work.computed); };
-    Plan p = plan(u, limit(), steps - elapsed);
+    Plan p = plan(u, limit(), eddy, steps - elapsed);
     if (p.any_implicit && !all) {  // lines carry it everywhere at once
       all = true;
       continue;
@@ -268,6 +282,7 @@ void advance_scalars(const Rows& rows, const FaceFluxes& fluxes, double steps, c
     if (fields.reversed) diffuse_all();
     sweep_all();
     if (!fields.reversed) diffuse_all();
+    take_at_walls(fluxes, p.steps, fields, budget);
     fields.reversed = !fields.reversed;
     ++budget.sub_steps;
     for (std::size_t r = 0; r < rows.runs().size(); ++r)

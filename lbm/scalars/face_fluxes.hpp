@@ -2,6 +2,7 @@
 // The air's mass fluxes through the faces of the cells: what carries a scalar.
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -14,7 +15,15 @@ struct FaceFluxes {
   std::array<std::vector<double>, 3> mass;        // [d][slot]
   std::array<std::vector<std::uint8_t>, 3> open;  // [d][slot] 0: wall (no flux, no diffusion), 1: open, 2: opening of
                                                   // the domain (inlet, outlet), one side is a ghost
+  std::array<std::vector<double>, 3> eddy;        // [d][slot] diffusivity on top of each scalar's own [dx^2 per air
+                                                  // step], >= 0; empty: none
   std::vector<double> density;                    // [slot] air density at the start of the interval, lattice units
+  /// Walls that take what drifts into them (wall_sinks.hpp): of what a cell holds, `rate` in one air step.
+  struct Sink {
+    std::ptrdiff_t slot = 0;
+    double rate = 0.0;
+  };
+  std::vector<Sink> sinks;
 };
 
 }  // namespace puffin::lbm

@@ -39,6 +39,7 @@ struct SweepRun {
   const std::uint8_t* open = nullptr;  // [cell] the high face: 0 closed, 1 open, 2 opening of the domain
   double steps = 0.0;                  // air steps
   double* air = nullptr;               // [cell] theta
+  const double* eddy = nullptr;        // [cell] diffusivity of all scalars on top, at the high face; null: none
 };
 
 /// One scalar along the run.

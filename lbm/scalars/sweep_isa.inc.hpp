@@ -13,6 +13,7 @@ struct Coefficients {
   alignas(64) double out_high[tile], out_low[tile];      // air leaving through the faces
   alignas(64) double reach_high[tile], reach_low[tile];  // (1 - out/theta)/2
   alignas(64) double link_high[tile], link_low[tile];    // 1: a neighbour behind the face
+  alignas(64) double eddy_high[tile], eddy_low[tile];    // exchange through it whatever the scalar
   alignas(64) double drift[tile];                        // half the net outflow to the high side per theta, clipped
 };
 
@@ -49,9 +50,19 @@ struct Parts {
   alignas(64) double value_high[tile], slope_high[tile], value_low[tile], slope_low[tile];
 };
 
+void eddies(int n, const double* __restrict at_high, const double* __restrict at_low, double steps, Coefficients& c) {
+  for (int i = 0; i < n; ++i) {
+    c.eddy_high[i] = steps * at_high[i] * c.link_high[i];
+    c.eddy_low[i] = steps * at_low[i] * c.link_low[i];
+  }
+}
+void no_eddies(int n, Coefficients& c) {
+  for (int i = 0; i < n; ++i) c.eddy_high[i] = c.eddy_low[i] = 0.0;
+}
+
 void combine(int n, const Coefficients& c, double exchange, Parts& p) {
   for (int i = 0; i < n; ++i) {
-    const double high = exchange * c.link_high[i], low = exchange * c.link_low[i];
+    const double high = exchange * c.link_high[i] + c.eddy_high[i], low = exchange * c.link_low[i] + c.eddy_low[i];
     p.value_high[i] = c.out_high[i] + high;
     p.slope_high[i] = c.out_high[i] * c.reach_high[i] - high * c.drift[i];
     p.value_low[i] = c.out_low[i] + low;
@@ -76,6 +87,10 @@ void outgoing(const SweepRun& run, const SweepScalar* scalars, int count) {
     const int n = run.count - from < tile ? run.count - from : tile;
     shared_by_scalars(n, run.mass + from, run.mass + from + run.low, run.open + from, run.open + from + run.low,
                       run.air + from, run.steps, c);
+    if (run.eddy)
+      eddies(n, run.eddy + from, run.eddy + from + run.low, run.steps, c);
+    else
+      no_eddies(n, c);
     for (int k = 0; k < count; ++k) {
       const SweepScalar& s = scalars[k];
       if (k == 0 || s.exchange != scalars[k - 1].exchange) combine(n, c, s.exchange, p);

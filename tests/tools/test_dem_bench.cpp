@@ -30,7 +30,8 @@ TEST(DemBench, TheDiluteCloudHasItsSolidFractionAndNobodyTouches) {
 }
 
 // Eight neighbours each, each contact counted once: 4 a carrier inside, fewer at the surface. Of 8 x 8 x 8 cubes with
-// two carriers 15 x 15 x 15 pairs of corner and centre are there, 3.30 a carrier; those that part at once may be missing.
+// two carriers 15 x 15 x 15 pairs of corner and centre are there, 3.30 a carrier; those that part at once may be
+// missing.
 TEST(DemBench, InTheDenseBedEverybodyTouchesAndIsAwake) {
   const DemRow row = measure_dem({"dense", 1024, 1}, 0.0, false);
   EXPECT_GT(row.contacts_per_carrier, 0.8 * 3.30);

@@ -82,8 +82,8 @@ double loop_time(const fs::path& folder, int processes) {
 bool liggghts_installed() { return std::system("command -v liggghts >/dev/null 2>&1") == 0; }
 
 double liggghts_speed(const DemScene& scene, int processes, double seconds) {
-  char name[] = "/tmp/puffin-bench-XXXXXX";
-  if (mkdtemp(name) == nullptr) return 0.0;
+  std::string name = (fs::temp_directory_path() / "puffin-bench-XXXXXX").string();
+  if (mkdtemp(name.data()) == nullptr) return 0.0;
   const fs::path folder(name);
   const double count = static_cast<double>(scene.carriers.size());
   std::int64_t steps = 20;

@@ -61,7 +61,8 @@ void fields(Summary& s, const Field& field) {
   field("cells_fluid", s.cells_fluid), field("cells_active", s.cells_active), field("steps", s.steps);
   field("mlups", s.mlups), field("mlups_active", s.mlups_active);
   field("dx", s.dx), field("dt_min", s.dt_min), field("dt_max", s.dt_max);
-  field("tau_min", s.tau_min), field("mach_max", s.mach_max), field("memory_peak", s.memory_peak);
+  field("tau_min", s.tau_min), field("mach_max", s.mach_max), field("limited", s.limited);
+  field("backflow", s.backflow), field("memory_peak", s.memory_peak);
 }
 
 template <class T>

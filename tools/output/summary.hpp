@@ -94,6 +94,8 @@ struct Summary {
   double dt_min = 0.0, dt_max = 0.0;       // [s]
   double tau_min = 0.0;                    // smallest relaxation time [time steps]
   double mach_max = 0.0;                   // of the lattice
+  std::int64_t limited = 0;                // cells x steps in which the positivity limiter acted
+  std::int64_t backflow = 0;               // outlet cells x steps in which back-flow was cut
   double memory_peak = 0.0;                // [byte]
   std::vector<PhaseTime> phases;
   std::vector<SkippedWork> skipped;

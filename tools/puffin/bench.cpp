@@ -22,6 +22,7 @@ std::span<const Bench> benches() {
   static constexpr std::array list{
       Bench{"geometry", "STL to cells, distances beside VTK's", &bench_geometry},
       Bench{"kernel", "the air alone, beside the memory's bound", &bench_kernel},
+      Bench{"stability", "what runs, is healed or diverges, over settings and speeds", &bench_stability},
       Bench{"dem", "carriers, beside LIGGGHTS where that is installed", &bench_dem},
       Bench{"pareto", "run time against error over many settings", &bench_pareto},
       Bench{"skip", "what is left out, put back in: time and change of the answer", &bench_skip},
@@ -84,7 +85,9 @@ Command bench() {
                 ->check(CLI::PositiveNumber);
             app.add_option("--carriers", a->carriers, "dem: numbers of carriers instead of the usual ones")
                 ->check(CLI::PositiveNumber);
-            app.add_option("--only", a->only, "pareto: this case alone, like P9; may be repeated")->type_name("ID");
+            app.add_option("--only", a->only,
+                           "pareto: this case alone, like P9; stability: this scene; may be repeated")
+                ->type_name("ID");
             app.add_option("--out", a->out, "a folder for the rows as CSV and JSON, and for figures");
             app.add_flag("--json", a->json, "one JSON object on stdout");
             return [a] { return puffin::tools::bench(*a); };

@@ -35,7 +35,9 @@ void log_to_file(const std::filesystem::path& file) {
 
 void log_info(const std::string& text) { spdlog::info("{}", text); }
 void log_warning(const std::string& text) { spdlog::warn("{}", text); }
-void log_error(const std::string& text) { spdlog::error("{}", text); }
+void log_error(const std::string& text) {  // the log says "error" itself
+  spdlog::error("{}", text.starts_with("error: ") ? text.substr(7) : text);
+}
 
 void print(const std::string& text) {
   std::fwrite(text.data(), 1, text.size(), stdout);

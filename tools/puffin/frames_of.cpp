@@ -107,7 +107,8 @@ output::WallFrame wall_frame(const cases::Simulation& s) {
     frame.patches.push_back({s.models.patches[p].patch, s.models.patches[p].is_inlet || s.models.patches[p].is_outlet});
   if (!s.description.carriers) return frame;
   const std::vector<double> stuck =
-      s.state.scalars.scalars() > 0 ? coupling::wall_map(s.state.fines, s.state.budget, 0, {}) : s.state.fines.stuck;
+      s.state.scalars.scalars() > 0 ? coupling::wall_map(s.state.fines, s.state.budget, 0, s.models.triangle_of_slot)
+                                    : s.state.fines.stuck;
   for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
     frame.fines.push_back(static_cast<float>(stuck[t] / mesh.area(t)));
     frame.hits.push_back(static_cast<float>(s.state.collisions.hits[t]));

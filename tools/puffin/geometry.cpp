@@ -53,7 +53,8 @@ cases::Parameters parameters_of(const GeometryArguments& a) {
     return cases::parse_parameters(a.kind, overrides);
   } catch (const cases::CaseError& e) {
     std::string text = a.kind + ":";
-    for (const cases::Problem& p : e.problems) text += "\n  " + p.text;
+    for (const cases::Problem& p : e.problems)  // a parameter that was not given is not named in the text
+      text += "\n  " + (p.text.starts_with(p.key) ? "" : p.key + " ") + p.text;
     throw UsageError(text);
   } catch (const std::invalid_argument& e) {
     throw UsageError(e.what());

@@ -26,6 +26,7 @@ void add_carriers(const coupling::Fines& fines, ReplayTables& tables) {
 
 std::optional<ReplayTables> replay_tables(const cases::Simulation& s) {
   if (!s.models.fines || s.state.scalars.scalars() == 0) return {};
+  if (s.models.regain) return {};  // what comes back depends on the concentrations on the way
   ReplayTables tables;
   tables.end = s.state.time;
   add_carriers(s.state.fines, tables);

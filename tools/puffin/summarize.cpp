@@ -229,6 +229,8 @@ output::Summary summarize(const cases::Simulation& s, const Recorder& recorder, 
     r.dt_min = s.state.extremes.min_dt;
     r.dt_max = s.state.extremes.max_dt;
     r.tau_min = s.state.extremes.min_tau;
+    r.limited = air.limited;
+    r.backflow = air.backflow;
     r.mach_max = std::sqrt(3.0) * s.state.extremes.max_speed_lu;
     if (recorder.drops().has_both()) r.pressure = pressures(s, recorder.history());
     for (const auto& patch : s.description.output.forces) {

@@ -59,6 +59,7 @@ std::string SurfaceFindings::fatal() const {
     } catch (const geometry::GeometryError& e) {
       text += (text.empty() ? "" : "\n") + file + ": " + e.what();
     }
+  if (!failure.empty()) text += (text.empty() ? "" : "\n") + file + ": " + failure;
   return text;
 }
 

@@ -22,9 +22,10 @@ struct SurfaceFindings {
   // Absent where the surface bounds no volume.
   std::optional<lbm::geometry::VoxelReport> report{};
   std::optional<lbm::geometry::Convergence> convergence{};
+  std::string failure{};  // why there are no cells
   double seconds = 0.0;
 
-  /// Every fatal defect and buried faces, a line each; empty if the surface can be used.
+  /// Every fatal defect, buried faces and the failure, a line each; empty if the surface can be used.
   std::string fatal() const;
 };
 

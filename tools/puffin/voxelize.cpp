@@ -71,19 +71,23 @@ int voxelize(const VoxelizeArguments& a) {
   for (const std::string& name : patches.names)
     if (std::find(a.openings.begin(), a.openings.end(), name) != a.openings.end()) openings.push_back(name);
   geometry::Voxels voxels;
-  if (sound) voxels = make_voxels(mesh, patches, openings, f);
+  if (sound) try {
+      voxels = make_voxels(mesh, patches, openings, f);
+    } catch (const geometry::GeometryError& e) {
+      f.failure = e.what();
+    }
   f.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (!a.out.empty()) {
     std::filesystem::create_directories(a.out);
     const std::filesystem::path folder(a.out);
-    if (sound) write_voxels(folder, voxels);
+    if (f.report) write_voxels(folder, voxels);
     if (!f.repairs.empty())
       geometry::write_stl((folder / "repaired.stl").string(), mesh, mesh.solids.size() == 1, unit);
     write_picture(f, mesh, patches, openings, folder / "report.png");
     std::ofstream(folder / "report.json") << to_json(f).dump(2) << '\n';
   }
   std::string fatal = f.fatal();
-  if (!fatal.empty() && !a.repair) fatal += "\n--repair mends what can be mended without guessing";
+  if (!sound && !a.repair) fatal += "\n--repair mends what can be mended without guessing";
   if (a.json) {
     nlohmann::json j = to_json(f);
     if (!fatal.empty()) {
@@ -116,8 +120,9 @@ Command voxelize() {
                 ->take_all()
                 ->capture_default_str();
             app.add_flag("--repair", a->repair, "weld, remove, turn and close what can be mended without guessing");
-            app.add_option("--largest-hole", a->largest_hole,
-                           "--repair leaves holes with a longer rim open; default a twentieth of the diagonal")
+            app.add_option(
+                   "--largest-hole", a->largest_hole,
+                   "--repair leaves holes with a longer rim open; default a twentieth of the diagonal, or one facet")
                 ->type_name("LENGTH");
             app.add_option("--out", a->out, "folder for voxels.vti, report.json, report.png and repaired.stl")
                 ->type_name("DIR");

@@ -54,6 +54,7 @@ surface_energy = "3.6e-3 J/m^2"
 cutoff_gap = "0.4 nm"
 [fines]
 micromodels = "lactose-3.6e-3.toml"
+wall_deposition = "inertial"
 [[fines.scalar]]
 name = "one"
 diffusion = "1e-6 kg/(m s)"

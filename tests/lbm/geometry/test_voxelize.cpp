@@ -233,6 +233,22 @@ TEST_F(Openings, AnOpeningWithoutFluidCellsIsRefused) {
   EXPECT_THROW(voxelize(TriangleTree(mesh), 0.1, options), GeometryError);
 }
 
+// A slice one cell wide: its sides are as far from the cell beside the opening as the opening itself, and nearer than
+// it in the narrower one.
+TEST_F(Openings, AreFoundInASliceOneCellWide) {
+  for (const double width : {0.1, 0.08}) {
+    const TriangleTree tree(shapes::box({0, 0, 0}, {1.0, width, 0.5}));
+    VoxelizeOptions options;
+    options.periodic = {false, width == 0.1, false};
+    for (const auto& t : tree.mesh().triangles) {
+      bool flat = true;
+      for (const int v : t) flat = flat && tree.mesh().vertices[v][0] == 0.0;
+      options.openings.push_back(flat ? 1 : 0);
+    }
+    EXPECT_EQ(fluid_cells(voxelize(tree, 0.1, options)), 50u) << width;
+  }
+}
+
 TEST(Voxelize, NonsenseIsRefused) {
   const TriangleTree tree(shapes::box({0, 0, 0}, {1, 1, 1}));
   EXPECT_THROW(voxelize(tree, 0.0), std::invalid_argument);

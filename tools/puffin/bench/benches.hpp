@@ -29,6 +29,7 @@ std::span<const Bench> benches();
 
 nlohmann::json bench_geometry(const BenchArguments& a);
 nlohmann::json bench_kernel(const BenchArguments& a);
+nlohmann::json bench_stability(const BenchArguments& a);
 nlohmann::json bench_dem(const BenchArguments& a);
 nlohmann::json bench_pareto(const BenchArguments& a);
 nlohmann::json bench_skip(const BenchArguments& a);

@@ -1,0 +1,140 @@
+#include "coupling/fines_drift.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "lbm/scalars/run_faces.hpp"
+
+namespace puffin::coupling {
+
+namespace {
+
+/// Calls visit(slot, run) for every active cell, chunk by chunk in parallel.
+template <class Visit>
+void for_each_cell(const lbm::Rows& rows, const Visit& visit) {
+  tbb::parallel_for(std::size_t{0}, rows.chunks().size(), [&](std::size_t c) {
+    for (int r = rows.chunks()[c].first_run; r < rows.chunks()[c].last_run; ++r) {
+      const lbm::Run& run = rows.runs()[r];
+      for (std::ptrdiff_t s = run.first; s < run.first + run.count; ++s) visit(s, run);
+    }
+  });
+}
+
+void size_for(const lbm::Rows& rows, DriftVelocity& velocity) {
+  for (auto& v : velocity) v.resize(rows.slots(), 0.0);
+}
+
+/// Ghosts of periodic faces stand for the cells that they mirror.
+void mirror(const lbm::Rows& rows, std::vector<double>& values) {
+  for (const auto& [ghost, cell] : rows.periodic_images()) values[ghost] = values[cell];
+}
+
+}  // namespace
+
+double response_time(double diameter, double density, double viscosity) {
+  const double knudsen = 2.0 * 0.067e-6 / diameter;
+  const double slip = 1.0 + knudsen * (1.257 + 0.4 * std::exp(-1.1 / knudsen));
+  return density * diameter * diameter * slip / (18.0 * viscosity);
+}
+
+std::vector<FinesDrift::WallCell> find_wall_cells(const lbm::Rows& rows, const lbm::FaceFluxes& fluxes,
+                                                  const lbm::geometry::TriangleTree& tree,
+                                                  const std::vector<char>& opening) {
+  std::vector<FinesDrift::WallCell> cells;
+  std::vector<lbm::geometry::Feature> found;
+  for (const lbm::Run& run : rows.runs())
+    for (std::ptrdiff_t s = run.first; s < run.first + run.count; ++s) {
+      std::array<Eigen::Vector3d, 6> closed;
+      int count = 0;
+      for (int d = 0; d < 3; ++d) {
+        if (fluxes.open[d][s] == 0) closed[count++] = Eigen::Vector3d::Unit(d);
+        if (fluxes.open[d][s + lbm::offset_low(run, d)] == 0) closed[count++] = -Eigen::Vector3d::Unit(d);
+      }
+      if (count == 0) continue;
+      const Eigen::Vector3d centre = rows.centre(s);
+      found.clear();
+      tree.near_features(centre, 2.0 * rows.dx(), &opening, found);
+      if (found.empty()) continue;
+      std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) {
+        return a.distance != b.distance ? a.distance < b.distance : a.triangle < b.triangle;
+      });
+      const std::size_t first = cells.size();  // of this cell, the nearest wall first
+      for (const auto& wall : found) {
+        if (wall.distance > found.front().distance + 0.75 * rows.dx()) break;
+        FinesDrift::WallCell cell{s, tree.mesh().area_vector(wall.triangle).normalized(), 0.0, wall.triangle};
+        if (wall.distance > 1e-3 * rows.dx() && (wall.point - centre).dot(cell.outward) > 0.0)
+          cell.outward = (wall.point - centre) / wall.distance;
+        cells.push_back(cell);
+      }
+      for (int n = 0; n < count; ++n) {
+        const auto sees = [&](const FinesDrift::WallCell& c) { return closed[n].dot(c.outward); };
+        const auto best = std::max_element(cells.begin() + first, cells.end(),
+                                           [&](const auto& x, const auto& y) { return sees(x) < sees(y); });
+        best->area += std::max(0.0, sees(*best));
+      }
+    }
+  return cells;
+}
+
+void update_drift(const lbm::Rows& rows, const lbm::FaceFluxes& fluxes, const Scale& scale, const FinesDrift& drift,
+                  double seconds, DriftVelocity& velocity) {
+  size_for(rows, velocity);
+  const double blend = -std::expm1(-seconds / drift.response_time);
+  const double per_difference = scale.pressure_unit() / (3.0 * scale.density * scale.dx);  // [m/s^2] per lattice unit
+  std::vector<double> density = fluxes.density;
+  mirror(rows, density);
+  for_each_cell(rows, [&](std::ptrdiff_t s, const lbm::Run& run) {
+    for (int d = 0; d < 3; ++d) {
+      const std::ptrdiff_t low = s + lbm::offset_low(run, d), high = s + lbm::offset_high(run, d);
+      const bool below = fluxes.open[d][low] == 1, above = fluxes.open[d][s] == 1;
+      double rise = 0.0;  // of the density over one cell
+      if (above) rise += density[high] - density[s];
+      if (below) rise += density[s] - density[low];
+      if (above && below) rise *= 0.5;
+      const double push = rise * per_difference / density[s] + drift.gravity[d];
+      velocity[d][s] += blend * (drift.response_time * push - velocity[d][s]);
+    }
+  });
+}
+
+void set_frozen_drift(const lbm::Rows& rows, const std::function<Eigen::Vector3d(const Eigen::Vector3d&)>& air,
+                      const FinesDrift& drift, DriftVelocity& velocity) {
+  size_for(rows, velocity);
+  const double h = 0.25 * rows.dx();
+  for_each_cell(rows, [&](std::ptrdiff_t s, const lbm::Run&) {
+    const Eigen::Vector3d x = rows.centre(s), u = air(x);
+    Eigen::Vector3d turning = Eigen::Vector3d::Zero();
+    for (int d = 0; d < 3; ++d)
+      turning += u[d] * (air(x + h * Eigen::Vector3d::Unit(d)) - air(x - h * Eigen::Vector3d::Unit(d))) / (2.0 * h);
+    for (int d = 0; d < 3; ++d) velocity[d][s] = drift.response_time * (drift.gravity[d] - turning[d]);
+  });
+}
+
+void add_drift(const lbm::Rows& rows, const lbm::FluxRoutes& routes, const Scale& scale, const FinesDrift& drift,
+               const DriftVelocity& velocity, lbm::FaceFluxes& fluxes) {
+  for (int d = 0; d < 3; ++d) {
+    std::vector<double> v = velocity[d], density = fluxes.density;
+    mirror(rows, v);
+    mirror(rows, density);
+    for_each_cell(rows, [&](std::ptrdiff_t s, const lbm::Run& run) {
+      if (fluxes.open[d][s] != 1) return;
+      const std::ptrdiff_t high = s + lbm::offset_high(run, d);
+      fluxes.mass[d][s] += 0.25 * (density[s] + density[high]) * scale.velocity_lu(v[s] + v[high]);
+    });
+    for (const auto& image : routes.images) fluxes.mass[d][image.ghost] = fluxes.mass[d][image.active];
+  }
+  if (!drift.deposits) return;
+  fluxes.sinks.clear();
+  for (const FinesDrift::WallCell& cell : drift.walls) {
+    const Eigen::Vector3d v(velocity[0][cell.slot], velocity[1][cell.slot], velocity[2][cell.slot]);
+    const double rate = std::max(0.0, scale.velocity_lu(v.dot(cell.outward))) * cell.area;
+    if (!fluxes.sinks.empty() && fluxes.sinks.back().slot == cell.slot)
+      fluxes.sinks.back().rate += rate;  // a corner
+    else
+      fluxes.sinks.push_back({cell.slot, rate});
+  }
+}
+
+}  // namespace puffin::coupling

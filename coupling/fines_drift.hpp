@@ -1,0 +1,68 @@
+#pragma once
+// Fines that do not quite follow the air: their drift through it, and what of it ends on walls.
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include "coupling/scale.hpp"
+#include "lbm/geometry/triangle_tree.hpp"
+#include "lbm/mass_fluxes.hpp"
+#include "lbm/rows.hpp"
+
+namespace puffin::coupling {
+
+/// tau = rho d^2 C_c/(18 mu) [s], C_c = 1 + Kn (1.257 + 0.4 exp(-1.1/Kn)), Kn = 2 lambda/d, lambda = 0.067 um
+/// (Cunningham; Davies 1945). in: diameter [m], density of the fines [kg/m^3], viscosity of the air [Pa s].
+double response_time(double diameter, double density, double viscosity);
+
+/// Velocity of fines of small inertia: u_f = u - tau Du/Dt + tau g, to first order in tau.
+/// Source: J. Ferry & S. Balachandar, Int. J. Multiph. Flow 27, 1199 (2001). Valid for Stokes numbers (tau over the
+/// time in which the air turns) below about 0.2: docs/fines.md has the errors beyond, against single fines.
+///
+/// On the lattice Du/Dt is taken as -grad p/rho, which differs by the viscous force alone: in the boundary layer of a
+/// wall, where the air stops, grad p is still that of the flow outside, and so is the drift. Fines cross such layers
+/// by their inertia where they are thinner than the stopping distance; that is what the wall flux here assumes, and
+/// what a gradient of the resolved velocity would leave to the cell size. The drift follows its cause with the delay
+/// tau, so that sound does not move the fines.
+struct FinesDrift {
+  double response_time = 0.0;                         // tau [s]
+  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  // [m/s^2]
+  bool deposits = false;                              // walls take what drifts into them, else they hold it off
+  /// A cell with a closed face: where its wall is, and how much of it [dx^2]: the sum over the closed faces of the part
+  /// that looks along the wall's normal, so that the cells' areas add up to that of the true surface.
+  struct WallCell {
+    std::ptrdiff_t slot = 0;
+    Eigen::Vector3d outward = Eigen::Vector3d::Zero();
+    double area = 0.0;
+    int triangle = -1;
+  };
+  std::vector<WallCell> walls;
+};
+
+/// Drift velocity [m/s] by direction and slot.
+using DriftVelocity = std::array<std::vector<double>, 3>;
+
+/// Cells with closed faces; each face with the wall within two cells that it looks at most. A corner cell has several
+/// entries, the nearest wall first; cells that see only openings are left out. `opening`: per triangle, 1: no wall.
+std::vector<FinesDrift::WallCell> find_wall_cells(const lbm::Rows& rows, const lbm::FaceFluxes& fluxes,
+                                                  const lbm::geometry::TriangleTree& tree,
+                                                  const std::vector<char>& opening);
+
+/// The drift `seconds` later: v <- v + (1 - exp(-seconds/tau)) (tau (grad p/rho + g) - v), from the lattice's density.
+/// An empty `velocity` starts at rest.
+void update_drift(const lbm::Rows& rows, const lbm::FaceFluxes& fluxes, const Scale& scale, const FinesDrift& drift,
+                  double seconds, DriftVelocity& velocity);
+
+/// The drift in a frozen field: tau (g - (u . grad) u), by central differences over half a cell.
+void set_frozen_drift(const lbm::Rows& rows, const std::function<Eigen::Vector3d(const Eigen::Vector3d&)>& air,
+                      const FinesDrift& drift, DriftVelocity& velocity);
+
+/// Adds the drift to the fluxes of the open faces (openings keep the air's), and sets the sinks of the walls:
+/// rate = max(v . n, 0) area, v of the cell beside the wall.
+void add_drift(const lbm::Rows& rows, const lbm::FluxRoutes& routes, const Scale& scale, const FinesDrift& drift,
+               const DriftVelocity& velocity, lbm::FaceFluxes& fluxes);
+
+}  // namespace puffin::coupling
