@@ -1,6 +1,8 @@
 #pragma once
-// Where the rows of a voxel box cross the triangles. Used by voxelize only.
+// Where the rows of a voxel box cross the triangles. Used by what classifies cells.
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -20,6 +22,13 @@ struct RowCrossings {
   std::vector<std::size_t> first;
   std::vector<Crossing> crossings;
 };
+
+/// Coordinates of an STL carry 2^-24 of the largest: a centre nearer than this to a triangle counts as on it, and so as
+/// on its +x, +y, +z side: what is asked of a centre is asked this far along +x, +y and +z of it.
+inline double on_surface(const Vec3& low, const Vec3& high, double dx) {
+  const double largest = std::max(low.cwiseAbs().maxCoeff(), high.cwiseAbs().maxCoeff());
+  return std::min(1e-3 * dx, std::ldexp(largest, -22));
+}
 
 /// See voxelize.hpp for the method. The tested points are the centres moved by `shift` along +x, +y and +z.
 RowCrossings row_crossings(const TriangleMesh& mesh, const Voxels& box, double shift);

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "lbm/geometry/row_crossings.hpp"
 #include "lbm/geometry/surface_check.hpp"
 
 namespace puffin::lbm::geometry {
@@ -78,6 +79,8 @@ SurfaceError surface_error(const TriangleTree& tree, const Voxels& voxels) {
 
 HiddenFaces hidden_faces(const TriangleTree& tree, const Voxels& voxels, const std::vector<char>& openings) {
   constexpr double off = 1e-3;  // of a cell: a centre that near to the surface lies on it
+  // Where voxelize asked: a row of centres in the plane of a wall runs beside it, not in it.
+  const Vec3 shift = Vec3::Constant(on_surface(tree.min(), tree.max(), voxels.dx));
   const std::vector<char> near = near_surface(tree.mesh(), voxels);
   struct Found {
     Vec3 where;
@@ -89,7 +92,7 @@ HiddenFaces hidden_faces(const TriangleTree& tree, const Voxels& voxels, const s
       if (!near[static_cast<std::size_t>(voxels.index(i, j, k))]) return;
       for (int d = 0; d < 3; ++d) {
         if (!voxels.is_fluid(i + (d == 0), j + (d == 1), k + (d == 2))) continue;
-        const Vec3 from = voxels.centre(i, j, k), along = voxels.dx * Vec3::Unit(d);
+        const Vec3 from = voxels.centre(i, j, k) + shift, along = voxels.dx * Vec3::Unit(d);
         const auto hit = tree.first_hit(from, along, 1.0);
         if (!hit || hit->t < off || hit->t > 1.0 - off || (!openings.empty() && openings[hit->triangle])) continue;
         const bool buried = tree.inside(from + (hit->t - off) * along) && tree.inside(from + (hit->t + off) * along);

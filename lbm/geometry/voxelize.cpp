@@ -53,14 +53,8 @@ Voxels make_box(const TriangleTree& tree, double dx, const VoxelizeOptions& opti
   return box;
 }
 
-// Coordinates of an STL carry 2^-24 of the largest: a centre nearer than this to a triangle counts as on it.
-double on_surface(const TriangleTree& tree, double dx) {
-  const double largest = std::max(tree.min().cwiseAbs().maxCoeff(), tree.max().cwiseAbs().maxCoeff());
-  return std::min(1e-3 * dx, std::ldexp(largest, -22));
-}
-
 void fill(const TriangleTree& tree, Voxels& box) {
-  const double shift = on_surface(tree, box.dx);
+  const double shift = on_surface(tree.min(), tree.max(), box.dx);
   const ClosingCaps caps(tree.mesh(), tree.adjacency());
   const RowCrossings rows = row_crossings(caps.closed(), box, shift);
   const int nx = box.size[0];

@@ -76,6 +76,17 @@ TEST(HiddenFaces, FacesInsideBodiesThatOverlapOrTouchAreBuriedAndRefusedWithThei
   EXPECT_NO_THROW(refuse_buried(hidden_faces(tree, voxelize(tree, 0.1))));
 }
 
+TEST(HiddenFaces, CentresInThePlaneOfAWallSeeNoneBetweenThem) {
+  // A step in the floor at x = 1, 3.5 cells high: a layer of centres lies in the plane of its top, on the side
+  // of the fluid, and its rows run through the edge.
+  Eigen::Matrix3d flip = Eigen::Matrix3d::Identity();
+  flip(2, 2) = -1.0;
+  const TriangleTree tree(shapes::transformed(shapes::step_duct(1.0, 3.0, 0.5, 1.0, 0.5625), flip, {0, 0, 1}));
+  const HiddenFaces faces = hidden_faces(tree, voxelize(tree, 0.125));
+  EXPECT_EQ(faces.thin, 0u);
+  EXPECT_EQ(faces.buried, 0u);
+}
+
 TEST(HiddenFaces, OpeningsAreNoWalls) {
   // A partition whose faces are openings (two ducts end to end, say) is not counted.
   const TriangleMesh mesh =
