@@ -65,6 +65,46 @@ TEST_F(HealthOf, FinesThatDoNotAddUpAreNamed) {
   expect_complaint("scalar set 0 do not add up");
 }
 
+// The air: one cell is spoilt; the next steps must say so and name a cell beside it.
+class HealthOfAir : public HealthOf {
+ protected:
+  /// Adds `excess` to the population in direction i of the cell at `x`, and steps until somebody complains.
+  std::string spoilt(const Vec3& x, int i, float excess) {
+    lbm::Air& air = *sim_->state.air;
+    auto& populations = std::get<lbm::Populations<float>>(air.populations);
+    for (const lbm::Run& run : air.rows.runs())
+      for (int n = 0; n < run.count; ++n)
+        if ((air.rows.centre(run.first + n) - x).cwiseAbs().maxCoeff() <= 0.5 * sim_->dx)
+          populations.arrived(run, run.first + n, i) += excess;
+    const std::int64_t before = air.steps;
+    try {
+      while (air.steps < before + 100) advance(sim_->models, 1.0, sim_->state);
+    } catch (const Diverged& e) {
+      return e.what();
+    }
+    return "nothing was noticed within 100 steps";
+  }
+  /// The place that a complaint names lies within the cells that the fault can reach before anybody looks: it spreads
+  /// one cell a step, and the report comes after at most the steps of one exchange interval (4).
+  void expect_place(const std::string& complaint, const Vec3& x) const {
+    ASSERT_NE(complaint.find("the air diverged at step"), std::string::npos) << complaint;
+    EXPECT_NE(complaint.find("Likely causes"), std::string::npos) << complaint;
+    Vec3 named;
+    ASSERT_EQ(std::sscanf(complaint.c_str() + complaint.find('['), "[%lf, %lf, %lf]", &named[0], &named[1], &named[2]),
+              3);
+    EXPECT_LE((named - x).cwiseAbs().maxCoeff(), 5.0 * sim_->dx) << complaint;
+  }
+  const Vec3 place_{3.1e-3, 1.1e-3, 1.1e-3};
+};
+
+TEST_F(HealthOfAir, AValueThatIsNoNumberIsFoundWithItsCell) {
+  expect_place(spoilt(place_, 0, std::numeric_limits<float>::quiet_NaN()), place_);
+}
+
+TEST_F(HealthOfAir, ASpeedOverTheLimitIsFoundWithItsCell) { expect_place(spoilt(place_, 1, 0.8F), place_); }
+
+TEST_F(HealthOfAir, ADensityOutOfRangeIsFoundWithItsCell) { expect_place(spoilt(place_, 0, -0.6F), place_); }
+
 TEST_F(HealthOf, CarriersThatBeganOutsideAreNotAskedToBeInside) {
   const auto other = coupled_simulation();
   other->state.carriers.carriers.position[0] = {-1e-3, 1e-3, 1e-3};

@@ -147,6 +147,8 @@ std::string folder_name(const std::string& name) {
 
 OutputFolder::OutputFolder(const std::optional<fs::path>& out, const std::string& name, bool resume) {
   if (out) {
+    if (std::error_code error; resume && !fs::exists(*out, error))
+      throw OutputError(fs::absolute(*out).string() + " holds no run to resume; start it without --resume");
     make_folder(*out);
     path_ = fs::canonical(*out);
     resumed_ = refuse_or_clear(path_, resume);

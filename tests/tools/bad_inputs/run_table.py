@@ -6,7 +6,8 @@ usage: run_table.py PROGRAM [--only WORD] [--show] [--document FILE [--write]]
 Each input runs in an empty folder of its own that holds case.toml (the sound base with the input's changes) and the
 input's files. The program then
   - ends within 20 s, with the exit code `exit`; never by a signal;
-  - says `message`, each of its lines a whole line of stderr, byte for byte ({here} stands for the folder, {source} for the project);
+  - says `message`, each of its lines a whole line of stderr, byte for byte ({here} stands for the folder,
+    {prefix} for where the program is installed, {source} for this tree);
   - needs less than 2 GB of address space on one thread;
   - leaves no file that was not there, in the folder or beside it, unless `leaves` names it.
 --show prints what is said instead of comparing. --document compares FILE with the table as a page; --write makes it.
@@ -77,7 +78,10 @@ def attempt(program: str, base: str, row: dict) -> tuple[int | str, str, set[str
         except subprocess.TimeoutExpired:
             code, said = f"none within {SECONDS} s", ""
         left = {name.removeprefix("here/") for name in listing(Path(outer)) - before}
-        return code, said.replace(str(folder), "{here}").replace(str(Path(__file__).resolve().parents[3]), "{source}"), left
+        prefix, source = Path(program).resolve().parents[1], HERE.parents[2]
+        for path, name in ((folder, "{here}"), (prefix, "{prefix}"), (source, "{source}")):
+            said = said.replace(str(path), name)
+        return code, said, left
 
 
 def faults(row: dict, outcome: tuple[int | str, str, set[str]]) -> list[str]:
