@@ -11,6 +11,7 @@
 #include "cases/opening.hpp"
 #include "cases/point_field.hpp"
 #include "cases/table_file.hpp"
+#include "lbm/markers.hpp"
 
 namespace puffin::cases {
 
@@ -106,6 +107,7 @@ void build_lattice(const LatticeNumbers& numbers, Simulation& s) {
   air.law = law_of(c.numerics.collision);
   // A frozen field has no walls that act on the air: only the cells of the fluid are wanted.
   air.wall = s.models.frozen_air ? lbm::WallScheme::bouzidi : wall_of(c.numerics.wall);
+  air.markers.retraction = lbm::retraction_for(numbers.tau);
   air.wall_model = c.numerics.wall_model && !s.models.frozen_air;
   air.double_precision = c.numerics.precision == Precision::float64;
   air.smagorinsky = c.numerics.les == Les::none ? 0.0 : c.numerics.smagorinsky_constant;

@@ -8,7 +8,7 @@ struct WallLinks {
   const float* weight[18];  // of the partner
   const float* moving[18];
   T* back[18];  // where the reflected population goes
-  T* rest;      // population at rest: takes the imbalance
+  T share[18];  // of the imbalance: w_i over the sum
   int count = 0;
 };
 
@@ -20,7 +20,7 @@ template <class T>
     return c[0] + run.shift[c[1] + 1][c[2] + 1];
   };
   links.count = 0;
-  links.rest = in.f + wall.first;
+  T sum = 0;
   for (std::uint32_t bits = wall.directions; bits != 0; bits &= bits - 1) {
     const int i = __builtin_ctz(bits), o = d3q19::opposite(i), k = links.count++;
     T* const f_i = in.f + i * in.stride + wall.first;
@@ -34,7 +34,11 @@ template <class T>
     const std::size_t at = wall.coefficient + static_cast<std::size_t>(k) * wall.count;
     links.weight[k] = in.partner + at;
     links.moving[k] = wall.moving ? in.moving + at : nullptr;
+    links.share[k] = T(i < 7 ? 2 : 1);
+    sum += links.share[k];
   }
+  const T each = T(1) / sum;
+  for (int k = 0; k < links.count; ++k) links.share[k] *= each;
 }
 
 /// Reflection for the cells of one pack (or one cell: V = T) from cell n of the wall run on.
@@ -48,21 +52,22 @@ template <class V, class T>
     else
       return load_float<T>(p + n);
   };
-  const auto store = [n](const V& v, T* p) __attribute__((always_inline)) {
-    if constexpr (std::is_same_v<V, T>)
-      p[n] = v;
-    else
-      v.copy_to(p + n, stdx::element_aligned);
-  };
+  V incoming[18];
   V imbalance = constant<V>(0);
   for (int k = 0; k < links.count; ++k) {
     const V out = load(links.out[k]);
     V change = load(links.weight[k]) * (load(links.partner[k]) - out);
     if (moving) change = change + V(speed) * load(links.moving[k]);
+    incoming[k] = out + change;
     imbalance = imbalance - change;
-    store(out + change, links.back[k]);
   }
-  store(load(links.rest) + imbalance, links.rest);
+  for (int k = 0; k < links.count; ++k) {
+    const V f = incoming[k] + V(links.share[k]) * imbalance;
+    if constexpr (std::is_same_v<V, T>)
+      links.back[k][n] = f;
+    else
+      f.copy_to(links.back[k] + n, stdx::element_aligned);
+  }
 }
 
 template <class T>
@@ -74,8 +79,11 @@ void walls(const WallInput<T>& in) {
   for (std::size_t w = in.first; w < in.last; ++w) {
     const WallRun& wall = in.walls[w];
     find_links(in, wall, links);
-    int n = 0;
-    for (; n + width <= wall.count; n += width) reflect<P>(links, wall.moving, speed, n);
-    for (; n < wall.count; ++n) reflect<T>(links, wall.moving, speed, n);
+    if (wall.count < width) {
+      for (int n = 0; n < wall.count; ++n) reflect<T>(links, wall.moving, speed, n);
+      continue;
+    }
+    // The last pack overlaps the one before it: what it reads has not been written, so the result is the same.
+    for (int n = 0; n < wall.count; n += width) reflect<P>(links, wall.moving, speed, std::min(n, wall.count - width));
   }
 }

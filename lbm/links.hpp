@@ -7,8 +7,7 @@
 //   q <  1/2:  f_in = 2q f_out + (1-2q) f_out(x - c)        q >= 1/2:  f_in = f_out/(2q) + (1 - 1/(2q)) f_own,
 // f_own the post-collision population of the cell in the returning direction.
 // Source: Bouzidi, Firdaouss & Lallemand, Phys. Fluids 13, 3452 (2001). Each cell's mass imbalance over its cut links
-// goes into its population at rest, so that the air's mass is conserved to round-off and no momentum is added (given
-// back over the links it displaced inclined walls twice as far: docs/decisions/0007-walls.md).
+// is returned over them in proportion to the lattice weights, so that the air's mass is conserved to round-off.
 // Half-way bounce-back is the same with q = 1/2 everywhere.
 
 #include <cstdint>

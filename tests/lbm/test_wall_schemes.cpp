@@ -18,8 +18,9 @@ using geometry::Vec3;
 
 namespace {
 
-AirOptions laminar(WallScheme wall) {
+AirOptions laminar(WallScheme wall, double tau = 0.8) {
   AirOptions options;
+  options.markers.retraction = retraction_for(tau);
   options.wall = wall;
   options.smagorinsky = 0.0;
   options.double_precision = true;
@@ -31,7 +32,7 @@ struct Channel {
   Channel(WallScheme wall, double height, double offset, double tau) : tau(tau) {
     scene = make_box(Vec3(4, height, 4), 1.0,
                      {periodic(), periodic(), test::wall(), test::wall(), periodic(), periodic()}, Vec3(0, offset, 0));
-    air = make_air(scene, laminar(wall));
+    air = make_air(scene, laminar(wall, tau));
     nu = (tau - 0.5) / 3.0;
     force = 8.0 * nu * 0.05 / (height * height);
     drive = at_rest(air);
