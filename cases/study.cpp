@@ -95,7 +95,7 @@ struct Sweep {
 };
 
 struct Draft {
-  std::string base;
+  std::string base, experiments;
   std::vector<std::string> share;
   std::int64_t replicates = 1;
   std::vector<StudyCase> cases;
@@ -106,6 +106,7 @@ void describe(format::TomlFields& io, Draft& d) {
   if (io.has("base", false)) io.file("base", d.base, {});
   io.texts("share", d.share, format::otherwise(std::vector<std::string>{}));
   io.integer("replicates", d.replicates, format::Range::positive, format::otherwise<std::int64_t>(1));
+  if (io.has("experiments", false)) io.file("experiments", d.experiments, {});
   io.list("case", d.cases, [](format::Fields& f, StudyCase& c) {
     f.text("name", c.name, format::required);
     std::string base;
@@ -130,12 +131,14 @@ Share share_of(const std::vector<std::string>& words, format::TomlFields& io) {
       s.geometry = true;
     else if (word == "scalars")
       s.scalars = true;
+    else if (word == "micromodels")
+      s.micromodels = true;
     else if (word == "start")
       s.start = true;
     else if (word == "one-way-flow")
       s.one_way_flow = true;
     else
-      io.problem("share", "'" + word + "' is none of geometry, scalars, start, one-way-flow");
+      io.problem("share", "'" + word + "' is none of geometry, scalars, micromodels, start, one-way-flow");
   }
   return s;
 }
@@ -201,6 +204,7 @@ Study read_study(const std::filesystem::path& file) {
   Study study;
   study.file = file;
   study.share = share_of(d.share, fields);
+  study.experiments = d.experiments;
   study.replicates = static_cast<int>(std::min<std::int64_t>(d.replicates, 10000));
   if (d.cases.empty() && d.base.empty() && findings.problems().empty())
     findings.problem("base", {name, 1, 1}, "missing key 'base': the case file that the study starts from");

@@ -22,18 +22,20 @@ struct StudyCase {
 
 /// What cases may share: what is asked for, done as far as it is exact (tools/puffin/batch_jobs.hpp).
 struct Share {
-  bool geometry = false, scalars = false, start = false, one_way_flow = false;
+  bool geometry = false, scalars = false, micromodels = false, start = false, one_way_flow = false;
 };
 
 struct Study {
   std::filesystem::path file;
   Share share;
-  int replicates = 1;  // runs a case, with seeds that follow the case's own
+  int replicates = 1;                 // runs a case, with seeds that follow the case's own
+  std::filesystem::path experiments;  // a table of measurements to stand beside the results; empty: none
   std::vector<StudyCase> cases;
 };
 
-/// Reads a study file: base, share, replicates, [[case]] name, base, set; [sweep] method, samples, seed, [sweep.range].
-/// A sweep multiplies each case (without [[case]]: the base alone); its cases are called NAME-1, NAME-2, ...
+/// Reads a study file: base, share, replicates, experiments, [[case]] name, base, set; [sweep] method, samples, seed,
+/// [sweep.range]. A sweep multiplies each case (without [[case]]: the base alone); its cases are called NAME-1, NAME-2,
+/// ...
 ///   list       the n-th values of all ranges together
 ///   factorial  every combination; with `samples`, so many equal steps between two ends
 ///   lhs        `samples` points, one in each of as many equal parts of every range (Latin hypercube, McKay, Beckman &

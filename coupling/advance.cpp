@@ -9,7 +9,11 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <span>
+#include <utility>
 
+#include "coupling/advance_together.hpp"
+#include "coupling/divergence.hpp"
 #include "coupling/drag_limit.hpp"
 #include "coupling/field_forces.hpp"
 #include "coupling/state.hpp"
@@ -35,34 +39,8 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_;
 };
 
-template <class... Args>
-[[noreturn]] void diverge(const char* format, Args... args) {
-  char text[512];
-  std::snprintf(text, sizeof text, format, args...);
-  throw Diverged(text);
-}
-
 bool all_asleep(const dem::Carriers& carriers) {
   return std::none_of(carriers.rest.begin(), carriers.rest.end(), [](dem::Rest r) { return r == dem::Rest::awake; });
-}
-
-/// Names the first cell whose density or speed left the limits of the kernel.
-[[noreturn]] void report_bad_cell(const lbm::Air& air, const Scale& scale, double time) {
-  for (const auto& run : air.rows.runs())
-    for (int n = 0; n < run.count; ++n) {
-      const auto m = lbm::moments_at(air, run.first + n);
-      const double speed = std::sqrt(m.ux * m.ux + m.uy * m.uy + m.uz * m.uz);
-      if (speed < lbm::speed_limit && std::abs(m.density_excess) < 0.5) continue;
-      const Vec3 x = air.rows.centre(run.first + n);
-      diverge(
-          "the air diverged at step %lld (t = %.6g s): cells out of range, the first at [%.5g, %.5g, %.5g] m: "
-          "speed %.4g (limit %.2g) and density %.4g in lattice units; %.4g m/s. Likely causes: lattice_speed too "
-          "high, dx too coarse for the narrowest gap, or an inlet faster than the reference speed",
-          static_cast<long long>(air.steps), time, x[0], x[1], x[2], speed, lbm::speed_limit, 1.0 + m.density_excess,
-          scale.velocity(speed));
-    }
-  diverge("the air diverged at step %lld (t = %.6g s): a cell was out of range", static_cast<long long>(air.steps),
-          time);
 }
 
 /// Sets what drives a step that begins at `start`: boundaries as in its middle; the body force as at its start, since a
@@ -119,7 +97,8 @@ void give_reaction(double interval, State& s) {
   flag_runs(s.touched, lbm::run_forced, *s.air);
 }
 
-void step_air(const Models& models, int steps, double rescale, State& s) {
+/// `beside`: further states whose carriers will ask for the air's velocity.
+void step_air(const Models& models, int steps, double rescale, std::span<const Companion> beside, State& s) {
   lbm::Air& air = *s.air;
   for (int n = 0; n < steps; ++n) {
     lbm::CollisionConstants constants;
@@ -135,6 +114,7 @@ void step_air(const Models& models, int steps, double rescale, State& s) {
     if (n == steps - 1) {
       std::fill(s.touched.begin(), s.touched.end(), 0);
       s.stencils.mark_runs(s.cells, s.touched);
+      for (const Companion& c : beside) c.state->stencils.mark_runs(s.cells, s.touched);
       flag_runs(s.touched, lbm::run_moments, air);
     } else if (n == 0) {
       for (auto& f : air.run_flags) f = static_cast<std::uint8_t>(f & ~lbm::run_moments);
@@ -299,38 +279,52 @@ void carry_fines(const Models& models, bool now, State& s) {
   s.steps_since_scalars = 0;
 }
 
-}  // namespace
+/// What one exchange interval is: its air steps, the change of the time step before them, its length [s].
+struct Interval {
+  int steps = 1;
+  double rescale = 1.0, seconds = 0.0;
+};
 
-void advance(const Models& models, double until, State& s) {
-  // The time step of this interval, and how many air steps it has.
-  const double old_dt = s.scale.dt;
-  const double wanted = models.time_step.next(s.time, old_dt, s.step_factor);
-  const double rescale = s.air ? wanted / old_dt : 1.0;
-  if (rescale != 1.0) {
-    carry_fines(models, true, s);  // with the old step's fluxes
+/// Air steps that the next interval may have.
+int most_steps(const Models& models, const State& s) {
+  const bool resting = s.carriers.carriers.size() == 0 || all_asleep(s.carriers.carriers);
+  return resting ? models.steps_per_exchange_asleep : models.steps_per_exchange;
+}
+
+/// Takes a new time step over; airborne fines are carried first, with the fluxes of the old one.
+void take_time_step(const Models& models, double dt, State& s) {
+  if (s.air && dt != s.scale.dt) {
+    carry_fines(models, true, s);
     ++s.effort.rescalings;
   }
-  s.scale.dt = wanted;
-  const bool resting = all_asleep(s.carriers.carriers);
-  const int most =
-      s.carriers.carriers.size() == 0 || resting ? models.steps_per_exchange_asleep : models.steps_per_exchange;
-  const int steps = std::clamp(static_cast<int>(std::ceil((until - s.time) / s.scale.dt - 1e-9)), 1, most);
-  // Without a lattice nothing ties the interval to whole steps: it ends where it is asked to.
-  const double whole = steps * s.scale.dt;
-  const double interval = !s.air && until > s.time ? std::min(whole, until - s.time) : whole;
-  if (resting && s.carriers.carriers.size() > 0) s.effort.exchanges_saved += steps / models.steps_per_exchange - 1;
+  s.scale.dt = dt;
+}
 
-  if (s.air) {
-    {
-      const Stopwatch watch(s.effort.exchange);
-      if (computes_air(models, s)) give_reaction(interval, s);
-      std::vector<int> all(s.carriers.carriers.size());
-      for (std::size_t p = 0; p < all.size(); ++p) all[p] = static_cast<int>(p);
-      s.stencils_at = {s.carriers.carriers.position, s.carriers.carriers.radius};
-      s.stencils.build(s.cells, s.stencils_at.position, s.stencils_at.radius, all);
-    }
-    if (computes_air(models, s)) step_air(models, steps, rescale, s);
-  }
+Interval interval_until(double until, int most, double old_dt, const State& s) {
+  Interval i;
+  i.rescale = s.air ? s.scale.dt / old_dt : 1.0;
+  i.steps = std::clamp(static_cast<int>(std::ceil((until - s.time) / s.scale.dt - 1e-9)), 1, most);
+  // Without a lattice nothing ties the interval to whole steps: it ends where it is asked to.
+  const double whole = i.steps * s.scale.dt;
+  i.seconds = !s.air && until > s.time ? std::min(whole, until - s.time) : whole;
+  return i;
+}
+
+/// Where the carriers are, before the air moves.
+void find_stencils(const Models& models, const Interval& interval, State& s) {
+  if (all_asleep(s.carriers.carriers) && s.carriers.carriers.size() > 0)
+    s.effort.exchanges_saved += interval.steps / models.steps_per_exchange - 1;
+  if (!s.air) return;
+  const Stopwatch watch(s.effort.exchange);
+  if (computes_air(models, s)) give_reaction(interval.seconds, s);
+  std::vector<int> all(s.carriers.carriers.size());
+  for (std::size_t p = 0; p < all.size(); ++p) all[p] = static_cast<int>(p);
+  s.stencils_at = {s.carriers.carriers.position, s.carriers.carriers.radius};
+  s.stencils.build(s.cells, s.stencils_at.position, s.stencils_at.radius, all);
+}
+
+/// Carriers and fines over the interval that the air has done.
+void follow_air(const Models& models, const Interval& interval, double until, State& s) {
   s.events.clear();
   if (s.carriers.carriers.size() > 0) {
     ++s.effort.exchanges;
@@ -339,23 +333,67 @@ void advance(const Models& models, double until, State& s) {
         if (rest == dem::Rest::held) rest = dem::Rest::awake;
     {
       const Stopwatch watch(s.effort.exchange);
-      find_loads(models, interval, s);
+      find_loads(models, interval.seconds, s);
     }
-    step_carriers(models, interval, s);
-    s.first_motion.update(s.carriers.carriers, s.time + interval);
+    step_carriers(models, interval.seconds, s);
+    s.first_motion.update(s.carriers.carriers, s.time + interval.seconds);
     count_collisions(s.events.begun, s.carriers.carriers, counted_from(models, s), s.collisions);
     if (computes_air(models, s) && models.two_way) {
       s.impulse_on_air.resize(s.carriers.carriers.size());
       for (std::size_t p = 0; p < s.impulse_on_air.size(); ++p) s.impulse_on_air[p] = -s.carriers.drag_impulse[p];
-      add_field_reaction(interval, s);
+      add_field_reaction(interval.seconds, s);
     }
   }
   // The caller reads the air at `until`: with the forces of the walls as they belong to it.
-  if (computes_air(models, s) && s.time + interval >= until * (1.0 - 1e-12)) lbm::settle_walls(s.drive, *s.air);
-  s.time += interval;
-  move_fines(models, steps, interval, s);
+  if (computes_air(models, s) && s.time + interval.seconds >= until * (1.0 - 1e-12)) lbm::settle_walls(s.drive, *s.air);
+  s.time += interval.seconds;
+  move_fines(models, interval.steps, interval.seconds, s);
   carry_fines(models, s.time >= until * (1.0 - 1e-12), s);  // the caller reads them at `until`
   if (s.carriers.carriers.size() > 0) remove_departed(models, s);
+}
+
+}  // namespace
+
+void advance(const Models& models, double until, State& s) {
+  const double old_dt = s.scale.dt;
+  take_time_step(models, models.time_step.next(s.time, old_dt, s.step_factor), s);
+  const Interval interval = interval_until(until, most_steps(models, s), old_dt, s);
+  find_stencils(models, interval, s);
+  if (computes_air(models, s)) step_air(models, interval.steps, interval.rescale, {}, s);
+  follow_air(models, interval, until, s);
+}
+
+BorrowedAir::BorrowedAir(State& owner, State& borrower) : owner_(owner), borrower_(borrower) {
+  if (&owner_ != &borrower_) std::swap(owner_.air, borrower_.air);
+}
+BorrowedAir::~BorrowedAir() {
+  if (&owner_ != &borrower_) std::swap(owner_.air, borrower_.air);
+}
+
+void advance_together(std::span<Companion> all, double until) {
+  State& owner = *all[0].state;
+  const Models& flow = *all[0].models;
+  const double old_dt = owner.scale.dt, dt = flow.time_step.next(owner.time, old_dt, owner.step_factor);
+  const auto each = [&](auto work) {
+    for (Companion& c : all) try {
+        const BorrowedAir air(owner, *c.state);
+        if (c.failure.empty()) work(*c.models, *c.state);
+      } catch (const Diverged& e) {
+        c.failure = e.what();
+      }
+  };
+  int most = flow.steps_per_exchange_asleep;
+  each([&](const Models& m, State& s) {
+    take_time_step(m, dt, s);
+    most = std::min(most, most_steps(m, s));
+  });
+  const Interval interval = interval_until(until, most, old_dt, owner);
+  const double end = owner.time + interval.seconds;
+  each([&](const Models& m, State& s) { find_stencils(m, interval, s); });
+  step_air(flow, interval.steps, interval.rescale, all.subspan(1), owner);
+  each([&](const Models& m, State& s) { follow_air(m, interval, until, s); });
+  for (const Companion& c : all)
+    if (!c.failure.empty()) c.state->time = end;
 }
 
 }  // namespace puffin::coupling

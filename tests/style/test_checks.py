@@ -12,6 +12,7 @@ import check_format
 import check_layers
 import check_readme
 import check_tidy
+import check_tutorials
 
 CONFIGURATION = Path(__file__).resolve().parents[2]
 UNFINISHED = "TO" + "DO"  # in pieces: this file is checked too
@@ -209,6 +210,28 @@ class Readme(SmallTree):
 
     def test_steps_that_leave_a_report_are_in_order(self):
         self.assertEqual(self.faults("mkdir -p out && touch out/report.html\n"), [])
+
+
+class Tutorials(SmallTree):
+    def faults(self, page: str) -> list[str]:
+        self.write("docs/tutorials/a.md", page)
+        self.write("puffin", "#!/bin/sh\ntest -f $1 && echo read $1 and 7 more\n")
+        (self.root / "puffin").chmod(0o755)
+        return check_tutorials.check(self.root, str(self.root / "puffin"))
+
+    def test_failing_command_is_named(self):
+        self.assert_one(self.faults("```toml a.toml\nx = 1\n```\n```bash\npuffin b.toml\n```\n"), "puffin b.toml: exit 1")
+
+    def test_other_words_than_promised_are_a_fault(self):
+        page = "```toml a.toml\nx = 1\n```\n```bash\npuffin a.toml\n```\n```text\nread a.toml ... less\n```\n"
+        self.assert_one(self.faults(page), "expected 'read a.toml ... less'")
+
+    def test_page_without_commands_is_a_fault(self):
+        self.assert_one(self.faults("Nothing to do.\n"), "no commands")
+
+    def test_good_page_is_in_order(self):
+        page = "```toml a.toml\nx = 1\n```\n```bash\npuffin a.toml\n```\n```text\nread a.toml ... more\n```\n"
+        self.assertEqual(self.faults(page), [])
 
 
 if __name__ == "__main__":

@@ -20,9 +20,10 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Everything a run writes at the top of its folder; nothing else is ever removed.
-constexpr std::array<std::string_view, 16> own_names{
-    "case.toml", "status.json", "log.txt",    "summary.json", "history.csv", "stats.h5",    "events.h5", "probes.csv",
-    "lines.csv", "planes.csv",  "forces.csv", "tracks.csv",   "vtk",         "checkpoints", "images",    "report.html"};
+constexpr std::array<std::string_view, 18> own_names{
+    "case.toml",   "status.json", "log.txt",   "summary.json", "summary.csv", "index.html",
+    "history.csv", "stats.h5",    "events.h5", "probes.csv",   "lines.csv",   "planes.csv",
+    "forces.csv",  "tracks.csv",  "vtk",       "checkpoints",  "images",      "report.html"};
 
 [[noreturn]] void fail(const fs::path& where, const std::string& what, int error) {
   const bool vanished = error == ENOENT && !fs::exists(where.parent_path());

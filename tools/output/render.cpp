@@ -42,29 +42,41 @@ WallFrame walls_of(const fs::path& run, std::optional<double> time, double* mome
   return read_wall_frame(run / "vtk" / entry.file);
 }
 
-/// The moment nearest to the wanted one of the first region that holds velocities: regions may have intervals of their
-/// own, and the first is the widest in the shipped cases.
-FieldFrame field_of(const fs::path& run, std::optional<double> time, double& moment) {
-  const fs::path pvd = run / "vtk/fields.pvd";
-  std::map<int, std::vector<SeriesEntry>> regions;
-  for (const auto& entry : read_pvd(pvd)) regions[entry.part].push_back(entry);
-  if (regions.empty()) throw OutputError(pvd.string() + " lists no output yet");
+using Regions = std::map<int, std::vector<SeriesEntry>>;  // regions may have intervals of their own
+
+Regions regions_of(const fs::path& run) {
+  Regions regions;
+  for (const auto& entry : read_pvd(run / "vtk/fields.pvd")) regions[entry.part].push_back(entry);
+  return regions;
+}
+
+bool serves(const FieldFrame& frame, bool lines) {
+  return !frame.velocity.empty() && (!lines || *std::min_element(frame.size.begin(), frame.size.end()) > 1);
+}
+
+/// The moment nearest to the wanted one of the first region that holds velocities, for lines in three dimensions.
+FieldFrame field_of(const fs::path& run, std::optional<double> time, bool lines, double& moment) {
+  const Regions regions = regions_of(run);
+  if (regions.empty()) throw OutputError((run / "vtk/fields.pvd").string() + " lists no output yet");
   for (const auto& [part, entries] : regions) {
     const SeriesEntry& entry = nearest(entries, time);
     FieldFrame frame = read_field_frame(run / "vtk" / entry.file);
     moment = entry.time;
-    if (!frame.velocity.empty()) return frame;
+    if (serves(frame, lines)) return frame;
   }
-  throw OutputError(run.string() + " holds fields without velocity; add \"velocity\" to `what` in [output] fields");
+  throw OutputError(run.string() + " holds no " + (lines ? "three-dimensional " : "") +
+                    "fields with velocity; add \"velocity\" to `what` in [output] fields" +
+                    (lines ? " and region = \"all\"" : ""));
 }
 
 }  // namespace
 
 View parse_view(const std::string& name) {
-  for (const View view : {View::geometry, View::carriers, View::slice, View::wall_map}) {
+  for (const View view : {View::geometry, View::carriers, View::slice, View::streamlines, View::wall_map}) {
     if (name == name_of(view)) return view;
   }
-  throw std::invalid_argument("there is no view '" + name + "'; choose carriers, wall-map, slice or geometry");
+  throw std::invalid_argument("there is no view '" + name +
+                              "'; choose carriers, wall-map, slice, streamlines or geometry");
 }
 
 const char* name_of(View view) {
@@ -75,6 +87,8 @@ const char* name_of(View view) {
       return "carriers";
     case View::slice:
       return "slice";
+    case View::streamlines:
+      return "streamlines";
     case View::wall_map:
       return "wall-map";
   }
@@ -86,7 +100,22 @@ bool can_render(const fs::path& run, View view) {
   if (!stored("vtk/walls.pvd")) return false;
   if (view == View::carriers) return stored("vtk/carriers.pvd");
   if (view == View::slice) return stored("vtk/fields.pvd");
+  if (view == View::streamlines) return !moments_of(run, view).empty();
   return true;
+}
+
+std::vector<double> moments_of(const fs::path& run, View view) {
+  std::vector<double> times;
+  const auto add = [&](const std::vector<SeriesEntry>& entries) {
+    for (const auto& entry : entries) times.push_back(entry.time);
+  };
+  if (view == View::carriers && fs::exists(run / "vtk/carriers.pvd")) add(read_pvd(run / "vtk/carriers.pvd"));
+  if (view == View::wall_map || view == View::geometry) add(read_pvd(run / "vtk/walls.pvd"));
+  if ((view == View::slice || view == View::streamlines) && fs::exists(run / "vtk/fields.pvd"))
+    for (const auto& [part, entries] : regions_of(run))
+      if (times.empty() && serves(read_field_frame(run / "vtk" / entries.front().file), view == View::streamlines))
+        add(entries);
+  return times;
 }
 
 void render(const fs::path& run, View view, std::optional<double> time, const fs::path& png,
@@ -100,10 +129,10 @@ void render(const fs::path& run, View view, std::optional<double> time, const fs
         const CarrierFrame carriers = read_carrier_frame(run / "vtk" / entry.file);
         caption.time = entry.time;
         return carriers_picture(walls_of(run, {}), carriers, caption, options.value_max.value_or(speed_scale(carriers)),
-                                options.width, options.height);
+                                options.aim, options.width, options.height);
       }
       case View::slice: {
-        const FieldFrame field = field_of(run, time, moment);
+        const FieldFrame field = field_of(run, time, false, moment);
         caption.time = moment;
         const auto thinnest = std::min_element(field.size.begin(), field.size.end()) - field.size.begin();
         const int axis = options.slice_axis.value_or(static_cast<int>(thinnest));
@@ -111,15 +140,21 @@ void render(const fs::path& run, View view, std::optional<double> time, const fs
         return slice_picture(field, walls_of(run, {}), axis, options.slice_at.value_or(middle), caption,
                              options.value_max, options.width, options.height);
       }
+      case View::streamlines: {
+        const FieldFrame field = field_of(run, time, true, moment);
+        caption.time = moment;
+        return streamlines_picture(field, walls_of(run, {}), caption, options.value_max, options.aim, options.width,
+                                   options.height);
+      }
       case View::wall_map: {
         const WallFrame walls = walls_of(run, time, &moment);
         caption.time = moment;
-        return wall_map_picture(walls, options.wall_quantity, caption, options.width, options.height);
+        return wall_map_picture(walls, options.wall_quantity, caption, options.aim, options.width, options.height);
       }
       case View::geometry:
         break;
     }
-    return geometry_picture(walls_of(run, {}), caption, options.width, options.height);
+    return geometry_picture(walls_of(run, {}), caption, options.aim, options.width, options.height);
   };
   try {
     write_whole(png, picture().png());

@@ -5,17 +5,21 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
+
+#include "tools/output/picture/framing.hpp"
 
 namespace puffin::output {
 
-enum class View { geometry, carriers, slice, wall_map };
+enum class View { geometry, carriers, slice, streamlines, wall_map };
 
-/// "geometry", "carriers", "slice", "wall-map". Throws std::invalid_argument naming the views.
+/// "geometry", "carriers", "slice", "streamlines", "wall-map". Throws std::invalid_argument naming the views.
 View parse_view(const std::string& name);
 const char* name_of(View view);
 
 struct RenderOptions {
   int width = 1600, height = 1000;      // [pixel]
+  Aim aim;                              // where the eye stands; not of the slice
   std::optional<int> slice_axis;        // 0, 1, 2: the normal is x, y, z; absent: across the thinnest extent
   std::optional<double> slice_at;       // position along the normal [m]; absent: the middle
   std::string wall_quantity = "fines";  // fines | hits | energy
@@ -23,9 +27,13 @@ struct RenderOptions {
 };
 
 /// Paints one view at the stored moment nearest to `time` [s] (absent: the last) and writes a PNG.
-/// Throws OutputError if the run has no such data or the picture cannot be written.
+/// Streamlines need a stored region "all" or a box: of the first one of those. Slices take the first region with
+/// velocity. Throws OutputError if the run has no such data or the picture cannot be written.
 void render(const std::filesystem::path& run, View view, std::optional<double> time, const std::filesystem::path& png,
             const RenderOptions& options = {});
+
+/// The stored moments [s] that a view can show, in order; of slices and streamlines those with velocities.
+std::vector<double> moments_of(const std::filesystem::path& run, View view);
 
 /// Whether the run holds what the view needs.
 bool can_render(const std::filesystem::path& run, View view);

@@ -66,11 +66,22 @@ std::string text(const Json& json, const char* key) {
   return json.contains(key) && json[key].is_string() ? json[key].get<std::string>() : "";
 }
 
-/// The summary as the case alone would have written it.
-std::optional<Summary> summary_of(const fs::path& run, const std::string& scalar) {
-  if (!fs::exists(run / "summary.json")) return {};
+/// The summary as the case alone would have written it. `replay`: a file with its own fines, which displace those of
+/// the run; the retained dose changes by their mass.
+std::optional<Summary> summary_of(const fs::path& run, const std::string& scalar, const std::string& replay,
+                                  double fines_of_dose) {
+  if (!fs::exists(run / "summary.json") || (!replay.empty() && !fs::exists(run / replay))) return {};
   Summary s = read_summary(run / "summary.json");
-  if (!scalar.empty()) std::erase_if(s.fines, [&](const FinesSummary& f) { return f.name != scalar; });
+  const auto keep_own = [&](std::vector<FinesSummary>& fines) {
+    if (!scalar.empty()) std::erase_if(fines, [&](const FinesSummary& f) { return f.name != scalar; });
+  };
+  keep_own(s.fines);
+  if (replay.empty()) return s;
+  std::vector<FinesSummary> fines = read_summary(run / replay).fines;
+  keep_own(fines);
+  if (s.carriers && s.carriers->RDF && !s.fines.empty() && !fines.empty())
+    *s.carriers->RDF += fines_of_dose * (fines[0].FFW + fines[0].FFCR - s.fines[0].FFW - s.fines[0].FFCR);
+  s.fines = fines;
   return s;
 }
 
@@ -84,7 +95,9 @@ StudyRun run_of(const Json& described, const Json& jobs, const fs::path& study) 
       run.message = text(job, "message");
       run.exit_code = job.value("exit_code", 0);
     }
-  if (run.state == "done") run.summary = summary_of(study / run.folder, run.scalar);
+  if (run.state == "done")
+    run.summary =
+        summary_of(study / run.folder, run.scalar, text(described, "replay"), described.value("fines_of_dose", 0.0));
   return run;
 }
 
@@ -98,6 +111,7 @@ ReferenceValue reference_of(const std::string& name, const Json& value) {
 StudyCaseResult case_of(const Json& described, const Json& jobs, const fs::path& study) {
   StudyCaseResult c;
   c.name = text(described, "name");
+  c.device = text(described, "device");
   for (const auto& [key, value] : part(described, "set").items())
     if (value.is_string()) c.sets.emplace_back(key, value.get<std::string>());
   for (const auto& [key, value] : part(described, "reference").items()) {
@@ -113,6 +127,32 @@ StudyCaseResult case_of(const Json& described, const Json& jobs, const fs::path&
     if (!values.empty()) c.numbers.emplace_back(name, estimate(values));
   }
   return c;
+}
+
+/// comparison.csv: what was measured beside every case of that device.
+void write_comparison(const StudyResults& results, const fs::path& study) {
+  const fs::path part = study / "comparison.csv.part";
+  const auto cell = [](const std::optional<double>& v, double factor) {
+    return v ? CsvCell(*v * factor) : CsvCell(std::string());
+  };
+  {
+    CsvFile table(part, {"device", "quantity", "case", "simulation", "ci_low", "ci_high", "replicates", "thesis",
+                         "experiment", "standard_deviation", "lowest", "highest", "tests"});
+    for (const std::string& quantity : names_of(results.experiments, &Measurement::quantity)) {
+      const auto [ours, factor] = counterpart_of(quantity);
+      for (const StudyCaseResult& c : results.cases) {
+        const Estimate* e = ours.empty() ? nullptr : c.find(ours);
+        const Spread s = spread_of(results.experiments, c.device, "", quantity);
+        if (!e || s.tests == 0) continue;
+        const ReferenceValue* thesis = c.given("thesis", ours);
+        table.append({c.device, quantity, c.name, e->mean * factor, cell(e->ci_low, factor), cell(e->ci_high, factor),
+                      double(e->n), cell(thesis ? std::optional(thesis->given) : std::nullopt, factor), s.mean,
+                      s.deviation, s.low, s.high, double(s.tests)});
+      }
+    }
+    table.flush();
+  }
+  finish_file(part, study / "comparison.csv");
 }
 
 }  // namespace
@@ -148,6 +188,7 @@ StudyResults read_study_results(const fs::path& study) {
   const Json json = read_json(study / "study.json");
   StudyResults results;
   results.name = fs::path(text(json, "study")).stem().string();
+  if (fs::exists(study / "experiments.csv")) results.experiments = read_experiments(study / "experiments.csv");
   for (const Json& c : part(json, "cases")) results.cases.push_back(case_of(c, part(json, "jobs"), study));
   return results;
 }
@@ -178,6 +219,16 @@ void write_study_tables(const StudyResults& results, const fs::path& study) {
   finish_file(study / "results.csv.part", study / "results.csv");
   finish_file(study / "runs.csv.part", study / "runs.csv");
   write_whole(study / "results.json", study_results_json(results) + "\n");
+  if (results.experiments.empty()) return;
+  write_experiments_summary(results.experiments, study);
+  write_comparison(results, study);
+}
+
+std::pair<std::string, double> counterpart_of(const std::string& measured) {
+  if (measured == "FFE" || measured == "RDF") return {measured, 1.0};
+  if (measured == "pressure_drop_kPa") return {"total_to_static_drop", 1e-3};
+  if (measured == "pressure_drop_Pa") return {"total_to_static_drop", 1.0};
+  return {"", 0.0};
 }
 
 std::string study_results_json(const StudyResults& results, std::optional<int> exit_code) {

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "tools/output/experiments.hpp"
 #include "tools/output/summary.hpp"
 
 namespace puffin::output {
@@ -29,6 +30,7 @@ struct Estimate {
 
 struct StudyCaseResult {
   std::string name;
+  std::string device;  // the generator, or the name of the STL file
   std::vector<std::pair<std::string, std::string>> sets;
   std::vector<StudyRun> runs;
   std::vector<std::pair<std::string, Estimate>> numbers;  // by quantity
@@ -40,6 +42,7 @@ struct StudyCaseResult {
 
 struct StudyResults {
   std::string name;
+  std::vector<Measurement> experiments;  // experiments.csv of the study's folder, if the study brings some
   std::vector<StudyCaseResult> cases;
 };
 
@@ -48,8 +51,12 @@ Estimate estimate(const std::vector<double>& values);
 
 /// Reads study.json and the summaries of its finished runs. Throws OutputError if study.json is missing or damaged.
 StudyResults read_study_results(const std::filesystem::path& study);
-/// results.csv (a row a case and quantity), runs.csv (a row a run) and results.json.
+/// results.csv (a row a case and quantity), runs.csv (a row a run) and results.json; with experiments also
+/// experiments-summary.csv and comparison.csv (a row a device, quantity and case).
 void write_study_tables(const StudyResults& results, const std::filesystem::path& study);
+/// Which number of a run a measured quantity is compared with, and the factor from SI to the unit in its name:
+/// "pressure_drop_kPa" -> {"total_to_static_drop", 1e-3}. {"", 0} if runs have no such number.
+std::pair<std::string, double> counterpart_of(const std::string& measured);
 std::string study_results_json(const StudyResults& results, std::optional<int> exit_code = {});
 
 }  // namespace puffin::output

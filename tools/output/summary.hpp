@@ -108,6 +108,9 @@ struct Summary {
 void write_summary(const std::filesystem::path& file, const Summary& summary);
 /// Throws OutputError if the file is missing or is no summary. Unknown keys are ignored, missing ones keep defaults.
 Summary read_summary(const std::filesystem::path& file);
+/// Writes summary.csv beside summary.json: a row `quantity,value` for every number and text in it, SI units; the
+/// quantity is the path ("carriers.RDF"), elements of lists go by their name. Throws OutputError.
+void write_summary_table(const std::filesystem::path& run);
 /// The text of summary.json; for `--json`.
 std::string summary_json(const Summary& summary);
 /// The text of the `fines` block alone; for `puffin replay --json`.

@@ -48,6 +48,8 @@ Command batch() {
             app.add_option("--preset", o->preset, "for every run: quick, fast, default, accurate")
                 ->check(CLI::IsMember(names))
                 ->type_name("NAME");
+            app.add_flag("--slurm", o->slurm,
+                         "as a job array of Slurm; --threads: cores of each run, --jobs: runs at a time");
             app.add_flag("--retry-failed", o->retry_failed, "try failed runs again");
             app.add_option("--out", o->out, "folder of the study; studies/NAME if not given")->type_name("DIR");
             app.add_flag("--json", o->json, "one JSON object on stdout");

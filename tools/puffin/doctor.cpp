@@ -91,7 +91,8 @@ void test_picture(const std::filesystem::path& folder) {
   wall.patch = {0, 0, 0, 0};
   wall.patches = {{"wall", false}};
   output::VtkSeries(folder / "vtk", "walls").append(0.0, wall);
-  output::render(folder, output::View::geometry, {}, folder / "test.png");
+  const output::RenderOptions options;
+  output::render(folder, output::View::geometry, {}, folder / "test.png", options);
   if (std::filesystem::file_size(folder / "test.png") == 0) throw std::runtime_error("the picture is empty");
 }
 

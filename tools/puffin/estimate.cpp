@@ -9,41 +9,41 @@
 #include "tools/puffin/commands.hpp"
 #include "tools/puffin/console.hpp"
 #include "tools/puffin/exit_codes.hpp"
+#include "tools/puffin/rehearsal.hpp"
 
 namespace puffin::tools {
 namespace {
 
-// Everything besides the bare lattice (links, exchange with the carriers, contacts, scalars, output) costs 50 % of it;
-// the design holds it below that, and small devices and crowded pockets are dearer.
-constexpr double besides = 1.5, besides_low = 1.1, besides_high = 3.0;
+constexpr double rehearsed_seconds = 5.0;
 
 int estimate(const CaseArguments& a) {
   const cases::Case c = a.read();
-  const cases::Assessment assessment = cases::assess(c, cases::load_surface(c));
-  const Calibration speed = calibrate(c.numerics);
-  const double updates =
-      assessment.lattice ? assessment.lattice->steps * static_cast<double>(assessment.cells_fluid) : 0;
-  const double bare = updates / speed.updates_per_second;
-  const double available = available_memory();
-  if (assessment.memory > available)
+  cases::Assessment assessment = cases::assess(c, cases::load_surface(c));
+  if (const double available = available_memory(); assessment.memory > available)
     throw ResourceError("the case needs about " + as_bytes(assessment.memory) + "; " + as_bytes(available) +
                         " are free: raise numerics.dx");
+  const Rehearsal rehearsal = rehearse(c, rehearsed_seconds);
+  assessment.memory = rehearsal.memory;
+  const double steps = assessment.lattice ? assessment.lattice->steps : 0.0;
+  const Forecast f = forecast(c, rehearsal, steps);
+  const double mlups = rehearsal.air > 0.0 ? 1e-6 * static_cast<double>(assessment.cells_fluid) / rehearsal.air : 0.0;
   if (a.json) {
     nlohmann::json j = assessment_json(c, assessment);
-    j["seconds"] = besides * bare;
-    j["seconds_low"] = besides_low * bare;
-    j["seconds_high"] = besides_high * bare;
-    j["mlups"] = speed.updates_per_second / 1e6;
-    j["threads"] = speed.threads;
+    j["seconds"] = f.seconds;
+    j["seconds_low"] = f.low;
+    j["seconds_high"] = f.high;
+    j["mlups"] = mlups;
+    j["threads"] = rehearsal.threads;
+    j["rehearsed_steps"] = rehearsal.steps;
     print(j.dump(2));
     return ok;
   }
   print_assessment(c, assessment);
-  print("speed      " + four_digits(speed.updates_per_second / 1e6) + " million cells a second on " +
-        std::to_string(speed.threads) + " threads (bare lattice, measured now)");
+  print("speed      " + four_digits(mlups) + " million fluid cells a second on " + std::to_string(rehearsal.threads) +
+        " threads (air and walls, rehearsed now: " + std::to_string(rehearsal.steps) + " steps)");
   if (assessment.lattice)
-    print("time       about " + as_time(besides * bare) + " (" + as_time(besides_low * bare) + " to " +
-          as_time(besides_high * bare) + ")");
+    print("time       about " + as_time(f.seconds) + " to stop.time (" + as_time(f.low) + " to " + as_time(f.high) +
+          ")");
   else
     print("time       without a lattice there is no estimate");
   return ok;

@@ -4,6 +4,8 @@
 
 #include <cstdio>
 
+#include "tools/output/report/live_page.hpp"
+
 namespace puffin::tools {
 
 using Clock = std::chrono::steady_clock;
@@ -19,7 +21,7 @@ Progress::Progress(const cases::Simulation& s, const output::OutputFolder& folde
 
 void Progress::update(const Recorder& recorder, const std::vector<std::string>& warnings, bool now) {
   const double wall = std::chrono::duration<double>(Clock::now() - start_).count();
-  if (!now && wall - last_ < (terminal_ ? 0.5 : 10.0)) return;
+  if (!now && wall - last_ < (terminal_ ? 0.5 : 1.0)) return;
   last_ = wall;
   const auto& state = sim_.state;
   output::Status status;
@@ -43,7 +45,12 @@ void Progress::update(const Recorder& recorder, const std::vector<std::string>& 
   if (!recorder.history().empty() && sim_.description.fines)
     status.ledger_error = recorder.history().back().ledger_error;
   output::write_status(folder_.file("status.json"), status);
-  if (quiet_) return;
+  if (now || wall - last_page_ >= 3.0) {
+    last_page_ = wall;
+    output::write_whole(folder_.file("index.html"), output::live_page(status, recorder.history()));
+  }
+  if (quiet_ || (!terminal_ && !now && wall - last_line_ < 10.0)) return;
+  last_line_ = wall;
   char line[240];
   std::snprintf(line, sizeof line, "%-9s %7.2f of %.0f ms  %5.1f %%  %6.1f MLUPS  ETA %4.0f s  ledger %.1e",
                 status.phase.c_str(), 1e3 * state.time, 1e3 * end_, all > 0.0 ? 100.0 * done / all : 0.0, status.mlups,

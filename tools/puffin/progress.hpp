@@ -9,7 +9,8 @@
 
 namespace puffin::tools {
 
-/// A line that is rewritten on a terminal, plain lines elsewhere, nothing if quiet; status.json always.
+/// A line that is rewritten on a terminal, plain lines elsewhere, nothing if quiet; status.json (every second) and
+/// index.html (every three) always.
 class Progress {
  public:
   Progress(const cases::Simulation& s, const output::OutputFolder& folder, bool quiet);
@@ -26,8 +27,8 @@ class Progress {
   double end_;  // [s]
   bool quiet_, terminal_;
   std::chrono::steady_clock::time_point start_;
-  double last_ = -1e9;  // [s] of wall clock
-  double begun_at_;     // work done before, by the part of the run that this one resumes
+  double last_ = -1e9, last_page_ = -1e9, last_line_ = -1e9;  // [s] of wall clock
+  double begun_at_;  // work done before, by the part of the run that this one resumes
 };
 
 /// status.json of a run that has only just got its folder, so that what follows is known to be a run.

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "cases/units.hpp"
 #include "tools/puffin/commands.hpp"
@@ -17,7 +18,9 @@ namespace {
 
 struct RenderArguments {
   std::filesystem::path run, out;
-  std::string view = "carriers", at, plane, quantity = "fines", maximum;
+  std::string view = "carriers", at, plane, quantity = "fines", maximum, focus;
+  std::optional<double> azimuth, elevation;
+  std::vector<int> size{1600, 1000};
 };
 
 double quantity(const std::string& text, const cases::Unit& unit, const char* option) try {
@@ -38,6 +41,8 @@ void set_plane(const std::string& text, output::RenderOptions& options) {
 int render_command(const RenderArguments& given) {
   output::RenderOptions options;
   options.wall_quantity = given.quantity;
+  options.aim = {given.azimuth, given.elevation, given.focus};
+  options.width = given.size[0], options.height = given.size[1];
   if (!given.plane.empty()) set_plane(given.plane, options);
   if (!given.maximum.empty()) options.value_max = quantity(given.maximum, cases::unit::velocity, "--max");
   std::optional<double> time;
@@ -54,8 +59,8 @@ Command render() {
   return {"render", "a picture of a run; no display needed", [](CLI::App& app) -> Action {
             auto given = std::make_shared<RenderArguments>();
             app.add_option("run", given->run, "the folder of a run")->required()->type_name("RUNDIR");
-            app.add_option("--view", given->view, "carriers, wall-map, slice or geometry")
-                ->check(CLI::IsMember({"carriers", "wall-map", "slice", "geometry"}))
+            app.add_option("--view", given->view, "carriers, wall-map, slice, streamlines or geometry")
+                ->check(CLI::IsMember({"carriers", "wall-map", "slice", "streamlines", "geometry"}))
                 ->capture_default_str();
             app.add_option("--at", given->at, "the stored moment nearest to this; default the last")->type_name("TIME");
             app.add_option("--plane", given->plane, "of the slice: an axis and a place, z=2.2mm; default the middle")
@@ -65,6 +70,14 @@ Command render() {
                 ->capture_default_str();
             app.add_option("--max", given->maximum, "upper end of the speed scale, to compare pictures")
                 ->type_name("VELOCITY");
+            app.add_option("--azimuth", given->azimuth, "where the eye stands: degrees from the x axis towards y");
+            app.add_option("--elevation", given->elevation, "and degrees upwards; -90 from below")
+                ->check(CLI::Range(-90.0, 90.0));
+            app.add_option("--focus", given->focus, "close up on this patch, for example pocket")->type_name("PATCH");
+            app.add_option("--size", given->size, "width and height in pixels")
+                ->expected(2)
+                ->check(CLI::Range(400, 8000))
+                ->capture_default_str();
             app.add_option("--out", given->out, "the picture")->required()->type_name("FILE.png");
             return [given] { return render_command(*given); };
           }};

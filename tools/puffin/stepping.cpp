@@ -3,6 +3,7 @@
 #include <cmath>
 #include <csignal>
 
+#include "tools/output/report/live_page.hpp"
 #include "tools/puffin/console.hpp"
 #include "tools/puffin/exit_codes.hpp"
 
@@ -172,6 +173,7 @@ void Stepping::finish(const Ending& ending) {
   output::Status last = output::read_status(folder_.file("status.json"));
   last.state = ending.state;
   output::write_status(folder_.file("status.json"), last);
+  output::write_whole(folder_.file("index.html"), output::live_page(last, recorder_->history()));
 }
 
 }  // namespace puffin::tools

@@ -101,7 +101,7 @@ TEST(Painter, ASphereIsADiscOfItsRadius) {
 TEST(Painter, ThePictureIsTheSameForEveryNumberOfThreads) {
   const auto with = [](std::size_t threads) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    return carriers_picture(synthetic_walls(), synthetic_carriers(0.12), {"x", 0.12}, 2.0, 400, 300).png();
+    return carriers_picture(synthetic_walls(), synthetic_carriers(0.12), {"x", 0.12}, 2.0, {}, 400, 300).png();
   };
   EXPECT_EQ(with(1), with(2));
 }
@@ -158,15 +158,30 @@ TEST_P(RenderView, IsAPictureOfTheAskedSizeWithManyColours) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Views, RenderView,
-                         testing::Values(View::geometry, View::carriers, View::slice, View::wall_map));
+                         testing::Values(View::geometry, View::carriers, View::slice, View::streamlines,
+                                         View::wall_map));
 
 TEST(Render, PicturesHaveManyColours) {
   // Shading, glass and the colour map give smooth tones; a failed drawing would be a page of one colour.
   const WallFrame walls = synthetic_walls();
-  EXPECT_GT(colours_in(geometry_picture(walls, {"x", {}}, 800, 500)), 100u);
-  EXPECT_GT(colours_in(carriers_picture(walls, synthetic_carriers(0.12), {"x", 0.12}, 2.0, 800, 500)), 500u);
+  EXPECT_GT(colours_in(geometry_picture(walls, {"x", {}}, {}, 800, 500)), 100u);
+  EXPECT_GT(colours_in(carriers_picture(walls, synthetic_carriers(0.12), {"x", 0.12}, 2.0, {}, 800, 500)), 500u);
   EXPECT_GT(colours_in(slice_picture(synthetic_field(0.1), walls, 2, 2e-3, {"x", 0.1}, {}, 800, 500)), 100u);
-  EXPECT_GT(colours_in(wall_map_picture(walls, "fines", {"x", 0.1}, 800, 500)), 500u);
+  EXPECT_GT(colours_in(wall_map_picture(walls, "fines", {"x", 0.1}, {}, 800, 500)), 500u);
+}
+
+TEST(Render, APictureClosesUpOnAPatchAndNamesThePatchesIfThereIsNone) {
+  const WallFrame walls = synthetic_walls();
+  const Box view{0, 0, 800, 500};
+  EXPECT_GT(camera_for(walls, {{}, {}, "pocket"}, view).scale, 1.5 * camera_for(walls, {}, view).scale);
+  // From the side, x to the right and z up.
+  EXPECT_NEAR(camera_for(walls, {-90.0, 0.0, "pocket"}, view).right.x(), 1.0, 1e-12);
+  try {
+    camera_for(walls, {{}, {}, "pockets"}, view);
+    FAIL();
+  } catch (const std::invalid_argument& e) {
+    EXPECT_NE(std::string(e.what()).find("there are wall, inlet, outlet, pocket"), std::string::npos) << e.what();
+  }
 }
 
 TEST(Render, TheSliceIsOfTheFirstRegionWithVelocityEvenIfALaterOneIsStoredMoreOften) {
@@ -190,7 +205,8 @@ TEST(Render, AMissingViewSaysWhatIsMissing) {
   EXPECT_FALSE(can_render(folder / "run", View::carriers));
   EXPECT_THROW(render(folder / "run", View::carriers, {}, folder / "a.png"), OutputError);
   EXPECT_THROW(render(folder / "none", View::geometry, {}, folder / "a.png"), OutputError);
-  EXPECT_THROW(render(folder / "run", View::geometry, {}, "/proc/a.png"), OutputError);
+  const RenderOptions usual;
+  EXPECT_THROW(render(folder / "run", View::geometry, {}, "/proc/a.png", usual), OutputError);
   EXPECT_THROW(parse_view("carrier"), std::invalid_argument);
   EXPECT_EQ(parse_view("wall-map"), View::wall_map);
 }

@@ -14,7 +14,7 @@
 namespace puffin::output {
 namespace {
 
-/// The whole run's report, made once: it paints eight pictures.
+/// The whole run's report, made once: it paints 17 pictures.
 const std::string& whole_report() {
   static const std::string text = [] {
     const Scratch folder;
@@ -40,7 +40,8 @@ TEST(Report, LoadsNothing) {
   EXPECT_FALSE(has(text, "<link"));
   EXPECT_FALSE(has(text, "@import"));
   EXPECT_EQ(count(text, "src=\""), count(text, "src=\"data:image/png;base64,"));
-  EXPECT_EQ(count(text, "<img "), 8);  // device, four moments, air, two wall maps
+  EXPECT_EQ(count(text, "<img "),
+            17);                       // device, four moments and the end, air, four moments of it twice, two wall maps
   EXPECT_EQ(count(text, "<svg "), 6);  // two emissions, outcome, flow, pressure, phases
 }
 
@@ -67,7 +68,7 @@ TEST(Report, AFlowOnlyRunSaysWhatIsLeftOutAndWhy) {
   const std::string text = make_report(folder / "run");
   EXPECT_TRUE(has(text, "Left out: this run has no carriers."));
   EXPECT_TRUE(has(text, "total-to-static drop [Pa]"));
-  EXPECT_EQ(count(text, "<img "), 2);  // device and air
+  EXPECT_EQ(count(text, "<img "), 10);  // device, air, its streamlines at four moments over all and at the pocket
 }
 
 TEST(Report, ADivergedRunSaysWhere) {

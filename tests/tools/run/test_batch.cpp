@@ -185,6 +185,123 @@ TEST_F(BatchStudy, ASharedRunGivesWhatEachCaseGivesAlone) {
     }
 }
 
+/// A power law that detaches `limit` of the fines at any hard hit.
+std::string micromodel_set(double limit) {
+  return "label = \"given\"\nsource = \"test\"\nsurface_energy = 3.6e-3\n[wall_detach]\nlaw = \"power\"\nA = [" +
+         std::to_string(limit) + ", 1.0, 0.01, " + std::to_string(limit) + ", 0.0]\nvalid = [0.0, 100.0]\n";
+}
+
+// Fines do not act on air, carriers or contacts: what is left on the carriers is the same as in a run with those laws,
+// to the rounding of other orders of summation (1e-9 of the fines; sums of some 1e6 terms). Where airborne fines ended
+// is taken from the run.
+TEST_F(BatchStudy, ReplayedMicromodelsLeaveOnTheCarriersWhatARunOfTheirOwnLeaves) {
+  file("case.toml", small_dose);
+  file("weak.toml", micromodel_set(0.05));
+  file("strong.toml", micromodel_set(0.2));
+  const std::string first = "[[case]]\nname = \"a\"\nset = { \"fines.micromodels\" = \"weak.toml\" }\n",
+                    second = "[[case]]\nname = \"b\"\nset = { \"fines.micromodels\" = \"strong.toml\" }\n";
+  file("study.toml", "base = \"case.toml\"\nshare = [\"micromodels\"]\n" + first + second);
+  ASSERT_EQ(batch(""), 0) << text("log.txt");
+  ASSERT_TRUE(fs::exists(folder_ / "out/shared/a_b/seed-1/replay-b.json")) << text("log.txt");
+  file("study.toml", "base = \"case.toml\"\n" + second);
+  ASSERT_EQ(shell(std::string(PUFFIN_BINARY_DIR) + "/puffin batch study.toml --out alone > /dev/null 2> log.txt"), 0);
+  const auto shared = output::read_study_results(folder_ / "out"),
+             alone = output::read_study_results(folder_ / "alone");
+  for (const char* quantity : {"FFCR", "FFCE", "by_mechanism.wall", "RDF"}) {
+    SCOPED_TRACE(quantity);
+    ASSERT_TRUE(shared.cases[1].find(quantity) && alone.cases[0].find(quantity));
+    EXPECT_NEAR(shared.cases[1].find(quantity)->mean, alone.cases[0].find(quantity)->mean, 1e-9);
+  }
+  EXPECT_GT(shared.cases[0].find("FFCR")->mean, shared.cases[1].find("FFCR")->mean + 1e-3);  // the laws do differ
+}
+
+// Carriers that do not act on the air feel the same air alone and beside others. While no dose rests as a whole, both
+// ways take the same intervals, so that every number is the same to the last bit.
+TEST_F(BatchStudy, ASharedFlowGivesWhatEachOneWayCaseGivesAlone) {
+  file("case.toml", small_dose);
+  const std::string cases =
+      "[[case]]\nname = \"a\"\nset = { \"carriers.two_way\" = false, \"stop.time\" = \"8 ms\" }\n[[case]]\nname = "
+      "\"b\"\n"
+      "set = { \"carriers.two_way\" = false, \"carriers.count\" = 500, \"stop.time\" = \"8 ms\" }\n";
+  file("study.toml", "base = \"case.toml\"\nshare = [\"one-way-flow\"]\n" + cases);
+  ASSERT_EQ(batch(""), 0) << text("log.txt");
+  ASSERT_TRUE(fs::exists(folder_ / "out/flow-1.json")) << text("log.txt");
+  file("study.toml", "base = \"case.toml\"\n" + cases);
+  ASSERT_EQ(shell(std::string(PUFFIN_BINARY_DIR) + "/puffin batch study.toml --out alone > /dev/null 2> log.txt"), 0);
+  const auto shared = output::read_study_results(folder_ / "out"),
+             alone = output::read_study_results(folder_ / "alone");
+  for (std::size_t n = 0; n < 2; ++n)
+    for (const char* quantity : {"FFE", "FFW", "FFCR", "FFCE", "in_air", "collisions.wall", "collisions.particle",
+                                 "mean_wall_energy", "steps", "static_drop", "RDF"}) {
+      SCOPED_TRACE(quantity);
+      ASSERT_TRUE(shared.cases[n].find(quantity) && alone.cases[n].find(quantity)) << text("out/a/seed-1/run.log");
+      EXPECT_EQ(shared.cases[n].find(quantity)->mean, alone.cases[n].find(quantity)->mean);
+    }
+  EXPECT_GT(shared.cases[0].find("collisions.particle")->mean, shared.cases[1].find("collisions.particle")->mean);
+}
+
+TEST_F(BatchStudy, OfASharedFlowOnlyWhatIsNotFinishedIsRunAgain) {
+  file("case.toml", small_dose);
+  file("study.toml",
+       "base = \"case.toml\"\nshare = [\"one-way-flow\"]\n[[case]]\nname = \"a\"\nset = { \"stop.time\" = \"1 ms\" }\n"
+       "[[case]]\nname = \"b\"\nset = { \"stop.time\" = \"2 ms\" }\n");
+  ASSERT_EQ(batch(""), 0) << text("log.txt");
+  const std::string before = text("out/a/seed-1/summary.json");
+  fs::remove_all(folder_ / "out/b");
+  ASSERT_EQ(batch(""), 0) << text("log.txt");
+  EXPECT_EQ(text("out/a/seed-1/summary.json"), before);
+  EXPECT_NEAR(output::read_summary(folder_ / "out/b/seed-1/summary.json").simulated_time, 2e-3, 1e-5);
+}
+
+/// Stands in for Slurm: sbatch runs the tasks of the array one after the other and squeue then knows of none.
+class SlurmStudy : public BatchStudy {
+ protected:
+  void SetUp() override {
+    BatchStudy::SetUp();
+    fs::create_directories(folder_ / "bin");
+    file("bin/sbatch",
+         "#!/bin/sh\nfor a in \"$@\"; do case $a in --array=*) list=${a#--array=};; *.sh) script=$a;; esac; done\n"
+         "echo \"$list\" >> " +
+             (folder_ / "sent.txt").string() +
+             "\nfor n in $(echo ${list%%%*} | tr , ' '); do SLURM_ARRAY_TASK_ID=$n sh $script; done\necho "
+             "'77;cluster'\n");
+    file("bin/squeue", "#!/bin/sh\nexit 0\n");
+    fs::permissions(folder_ / "bin/sbatch", fs::perms::owner_all);
+    fs::permissions(folder_ / "bin/squeue", fs::perms::owner_all);
+  }
+  int slurm_batch(const std::string& arguments) const {
+    return shell("PATH=$PWD/bin:$PATH " + std::string(PUFFIN_BINARY_DIR) +
+                 "/puffin batch study.toml --slurm --out out " + arguments + " > json.txt 2>> log.txt");
+  }
+};
+
+TEST_F(SlurmStudy, AnArrayGivesTheSameTablesAsTheBatch) {
+  file("study.toml",
+       "base = \"case.toml\"\n[sweep]\nmethod = \"list\"\n[sweep.range]\n\"air.density\" = [1.1, 1.2, 1.3]\n");
+  ASSERT_EQ(slurm_batch("--jobs 2"), 0) << text("log.txt");
+  EXPECT_EQ(text("sent.txt"), "0,1,2%2\n");
+  ASSERT_EQ(shell(std::string(PUFFIN_BINARY_DIR) + "/puffin batch study.toml --out here > /dev/null 2>> log.txt"), 0);
+  const auto there = output::read_study_results(folder_ / "out"), here = output::read_study_results(folder_ / "here");
+  ASSERT_EQ(there.cases.size(), 3u);
+  for (std::size_t n = 0; n < 3; ++n) {
+    ASSERT_TRUE(there.cases[n].find("static_drop"));
+    EXPECT_EQ(there.cases[n].find("static_drop")->mean, here.cases[n].find("static_drop")->mean);
+  }
+  ASSERT_EQ(slurm_batch(""), 0);  // everything is finished: nothing is sent again
+  EXPECT_EQ(text("sent.txt"), "0,1,2%2\n");
+}
+
+TEST_F(SlurmStudy, ATaskThatFailsFailsAloneAndARefusalIsTold) {
+  file("study.toml",
+       "base = \"case.toml\"\n[[case]]\nname = \"good\"\n[[case]]\nname = \"bad\"\n"
+       "set = { \"numerics.time_step\" = 8e-4, \"stop.time\" = 0.4 }\n");
+  EXPECT_EQ(slurm_batch(""), 8) << text("log.txt");
+  EXPECT_TRUE(fs::exists(folder_ / "out/good/seed-1/report.html"));
+  file("bin/sbatch", "#!/bin/sh\necho 'sbatch: error: invalid partition specified: night'\nexit 1\n");
+  EXPECT_EQ(slurm_batch("--retry-failed"), 7);
+  EXPECT_NE(text("log.txt").find("invalid partition specified: night"), std::string::npos);
+}
+
 // mean 2, standard deviation 1, t(0.975, 2) = 4.303: half width 4.303/sqrt(3) = 2.484 (four digits in the table).
 TEST(StudyTable, TheIntervalOfThreeValuesIsStudents) {
   const output::Estimate e = output::estimate({1.0, 2.0, 3.0});

@@ -12,51 +12,6 @@
 namespace puffin::output {
 namespace {
 
-constexpr double azimuth = -62;  // from the front; x runs to the right
-
-/// The steepest view from above that still shows the device as large as the flattest one does: slender devices are
-/// seen better from higher up.
-double elevation_for(const Extent& extent, const Box& view) {
-  const auto scale = [&](double elevation) {
-    return Camera::looking(azimuth, elevation, extent.low, extent.high, view).scale;
-  };
-  double best = 30;
-  for (double elevation = 30; elevation <= 50; elevation += 2) {
-    if (scale(elevation) > 0.97 * scale(30)) best = elevation;
-  }
-  return best;
-}
-
-std::string formatted(const char* format, double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
-
-std::string subtitle(const Caption& caption, const std::string& more = {}) {
-  std::string text = caption.name;
-  if (caption.time) text += (text.empty() ? "" : "   ") + formatted("t = %.1f ms", *caption.time * 1e3);
-  if (!more.empty()) text += (text.empty() ? "" : "   ") + more;
-  return text;
-}
-
-/// The part of the picture that the scene may use, with room for the title above and a column at the right.
-Box stage(int width, int height, double right_column) {
-  return {50, 130, width - 100 - right_column, height - 130 - 90.0};
-}
-
-Box colour_bar_place(int width, int height) { return {width - 120.0, 150, 28, height - 270.0}; }
-
-void add_glass(const WallFrame& walls, float wall_opacity, Scene& scene) {
-  for (std::size_t t = 0; t < walls.triangles.size(); ++t) {
-    const auto& [a, b, c] = walls.triangles[t];
-    if (walls.patches[walls.patch[t]].opening) continue;
-    scene.triangles.push_back(
-        {point_of(walls.vertices[a]), point_of(walls.vertices[b]), point_of(walls.vertices[c]), glass, wall_opacity});
-  }
-  for (const auto& edge : outline_of(walls, soft_ink, 1.6f, 0.75f)) scene.edges.push_back(edge);
-}
-
 /// The name on the patch, or above it with a line to it if the patch is too small on the picture.
 void draw_patch_name(const WallFrame& walls, int patch, const Camera& camera, const Vec3& middle, Canvas& canvas) {
   double left = 1e9, right = -1e9, top = 1e9;
@@ -76,7 +31,34 @@ void draw_patch_name(const WallFrame& walls, int patch, const Camera& camera, co
   canvas.text(std::max(middle.x(), 60.0), y, name, {.size = 25, .bold = true, .align = Align::centre, .halo = true});
 }
 
-float speed_of(const std::array<float, 3>& v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
+/// The walls as `aim` says; without it from above and from below, the two views side by side or one above the other,
+/// whichever shows them larger. Returns the scale [pixel/m].
+double paint_walls(const Scene& scene, const WallFrame& walls, const Aim& aim, const Box& whole, Canvas& canvas) {
+  if (aim.azimuth || aim.elevation || !aim.focus.empty()) {
+    const Camera camera = camera_for(walls, aim, whole);
+    paint(scene, camera, whole, canvas);
+    return camera.scale;
+  }
+  const Extent extent = extent_of(walls);
+  Box first = whole, second = whole;
+  first.height = second.height = 0.5 * whole.height - 10, second.y += 0.5 * whole.height + 10;
+  Box left = whole, right = whole;
+  left.width = right.width = 0.5 * whole.width - 10, right.x += 0.5 * whole.width + 10;
+  if (camera_for(walls, {}, left).scale > camera_for(walls, {}, first).scale) first = left, second = right;
+  const double elevation = elevation_for(extent, first);
+  const Camera above = camera_for(walls, {}, first), below = camera_for(walls, {{}, -elevation, {}}, second);
+  paint(scene, above, first, canvas);
+  paint(scene, below, second, canvas);
+  const auto label = [&](const Camera& camera, const Box& box, const char* text) {
+    double top = box.y + box.height;  // of the drawing
+    for (const auto& vertex : walls.vertices) top = std::min(top, camera.project(point_of(vertex)).y());
+    canvas.text(box.x + 0.5 * box.width, std::max(top - 30, box.y + 10), text,
+                {.size = 22, .colour = soft_ink, .align = Align::centre});
+  };
+  label(above, first, "from above");
+  label(below, second, "from below");
+  return above.scale;
+}
 
 }  // namespace
 
@@ -86,7 +68,7 @@ double speed_scale(const CarrierFrame& carriers) {
   return scale_end(fastest);
 }
 
-Canvas geometry_picture(const WallFrame& walls, const Caption& caption, int width, int height) {
+Canvas geometry_picture(const WallFrame& walls, const Caption& caption, const Aim& aim, int width, int height) {
   Canvas canvas(width, height);
   const Extent extent = extent_of(walls);
   const std::vector<PatchMeasure> measures = measures_of(walls);
@@ -107,7 +89,7 @@ Canvas geometry_picture(const WallFrame& walls, const Caption& caption, int widt
   }
   scene.edges = outline_of(walls, ink, 1.8f, 0.8f);
   const Box view = stage(width, height, 300);
-  const Camera camera = Camera::looking(azimuth, elevation_for(extent, view), extent.low, extent.high, view);
+  const Camera camera = camera_for(walls, aim, view);
   paint(scene, camera, view, canvas);
 
   const Vec3 size = (extent.high - extent.low) * 1e3;
@@ -126,9 +108,8 @@ Canvas geometry_picture(const WallFrame& walls, const Caption& caption, int widt
 }
 
 Canvas carriers_picture(const WallFrame& walls, const CarrierFrame& carriers, const Caption& caption, double speed_max,
-                        int width, int height) {
+                        const Aim& aim, int width, int height) {
   Canvas canvas(width, height);
-  const Extent extent = extent_of(walls);
   Scene scene;
   scene.smallest_radius = 2.0;
   add_glass(walls, 0.07f, scene);
@@ -138,7 +119,7 @@ Canvas carriers_picture(const WallFrame& walls, const CarrierFrame& carriers, co
         {point_of(carriers.position[i]), 0.5 * carriers.diameter[i], scale.colour(speed_of(carriers.velocity[i]))});
   }
   const Box view = stage(width, height, 150);
-  const Camera camera = Camera::looking(azimuth, elevation_for(extent, view), extent.low, extent.high, view);
+  const Camera camera = camera_for(walls, aim, view);
   paint(scene, camera, view, canvas);
   draw_title(canvas, "Carriers",
              subtitle(caption, std::to_string(carriers.position.size()) + " tracked bodies in the device"));
@@ -207,8 +188,8 @@ Canvas slice_picture(const FieldFrame& field, const WallFrame& walls, int axis, 
   return canvas;
 }
 
-Canvas wall_map_picture(const WallFrame& walls, const std::string& quantity, const Caption& caption, int width,
-                        int height) {
+Canvas wall_map_picture(const WallFrame& walls, const std::string& quantity, const Caption& caption, const Aim& aim,
+                        int width, int height) {
   const bool hits = quantity == "hits", energy = quantity == "energy";
   if (!hits && !energy && quantity != "fines")
     throw std::invalid_argument("no wall quantity '" + quantity + "'; there are fines, hits and energy");
@@ -236,30 +217,8 @@ Canvas wall_map_picture(const WallFrame& walls, const std::string& quantity, con
   }
   scene.edges = outline_of(walls, ink, 1.4f, 0.6f);
   Canvas canvas(width, height);
-  const Extent extent = extent_of(walls);
   const Box whole = stage(width, height, 170);
-  // The two views side by side or one above the other, whichever shows them larger.
-  Box first = whole, second = whole;
-  first.height = second.height = 0.5 * whole.height - 10, second.y += 0.5 * whole.height + 10;
-  Box left = whole, right = whole;
-  left.width = right.width = 0.5 * whole.width - 10, right.x += 0.5 * whole.width + 10;
-  const auto scale_in = [&](const Box& box) {
-    return Camera::looking(azimuth, elevation_for(extent, box), extent.low, extent.high, box).scale;
-  };
-  if (scale_in(left) > scale_in(first)) first = left, second = right;
-  const double elevation = elevation_for(extent, first);
-  const Camera above = Camera::looking(azimuth, elevation, extent.low, extent.high, first);
-  const Camera below = Camera::looking(azimuth, -elevation, extent.low, extent.high, second);
-  paint(scene, above, first, canvas);
-  paint(scene, below, second, canvas);
-  const auto label = [&](const Camera& camera, const Box& box, const char* text) {
-    double top = box.y + box.height;  // of the drawing
-    for (const auto& vertex : walls.vertices) top = std::min(top, camera.project(point_of(vertex)).y());
-    canvas.text(box.x + 0.5 * box.width, std::max(top - 30, box.y + 10), text,
-                {.size = 22, .colour = soft_ink, .align = Align::centre});
-  };
-  label(above, first, "from above");
-  label(below, second, "from below");
+  const double pixels_a_metre = paint_walls(scene, walls, aim, whole, canvas);
   const std::string title = hits     ? "Impacts of carriers on the walls"
                             : energy ? "Energy of the impacts on the walls"
                                      : "Fines on the walls";
@@ -268,7 +227,7 @@ Canvas wall_map_picture(const WallFrame& walls, const std::string& quantity, con
                                     : "fines per area [1/m^2]";
   draw_title(canvas, title, subtitle(caption, "grey: none"));
   draw_colour_bar(canvas, colour_bar_place(width, height), scale, unit);
-  draw_scale_bar(canvas, 60, height - 45, above.scale);
+  draw_scale_bar(canvas, 60, height - 45, pixels_a_metre);
   return canvas;
 }
 

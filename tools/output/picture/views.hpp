@@ -6,32 +6,35 @@
 
 #include "tools/output/frames.hpp"
 #include "tools/output/picture/canvas.hpp"
+#include "tools/output/picture/framing.hpp"
 
 namespace puffin::output {
 
-struct Caption {
-  std::string name;            // of the case
-  std::optional<double> time;  // [s]
-};
-
 /// Clear walls with every patch in its colour, names, areas, the outer measures and a scale bar.
-Canvas geometry_picture(const WallFrame& walls, const Caption& caption, int width, int height);
+Canvas geometry_picture(const WallFrame& walls, const Caption& caption, const Aim& aim, int width, int height);
 
 /// Clear walls and the carriers as spheres coloured by speed; `speed_max` [m/s] ends the scale.
 Canvas carriers_picture(const WallFrame& walls, const CarrierFrame& carriers, const Caption& caption, double speed_max,
-                        int width, int height);
+                        const Aim& aim, int width, int height);
 
 /// Speed of the air on the layer of cells nearest to `at` [m] along `axis` (0 x, 1 y, 2 z), with the walls' outline.
 /// Throws std::invalid_argument if the frame has no velocity.
 Canvas slice_picture(const FieldFrame& field, const WallFrame& walls, int axis, double at, const Caption& caption,
                      std::optional<double> speed_max, int width, int height);
 
-/// A wall quantity ("fines", "hits" or "energy") on the triangles, from above and from below, logarithmic.
-/// Throws std::invalid_argument if the frame has no such array.
-Canvas wall_map_picture(const WallFrame& walls, const std::string& quantity, const Caption& caption, int width,
-                        int height);
+/// Clear walls and streamlines of the air coloured by speed, evenly spread on the picture.
+/// Throws std::invalid_argument if the frame has no velocity, or there is no patch to close up on.
+Canvas streamlines_picture(const FieldFrame& field, const WallFrame& walls, const Caption& caption,
+                           std::optional<double> speed_max, const Aim& aim, int width, int height);
+
+/// A wall quantity ("fines", "hits" or "energy") on the triangles, logarithmic: from above and from below, or as `aim`
+/// says. Throws std::invalid_argument if the frame has no such array.
+Canvas wall_map_picture(const WallFrame& walls, const std::string& quantity, const Caption& caption, const Aim& aim,
+                        int width, int height);
 
 /// The largest speed in a frame [m/s], rounded up for a scale.
 double speed_scale(const CarrierFrame& carriers);
+/// The speed that 99.9 % of the cells stay below, rounded up: a few cells at an edge do not darken the rest.
+double speed_scale(const FieldFrame& field);
 
 }  // namespace puffin::output

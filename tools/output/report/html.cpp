@@ -31,7 +31,7 @@ th, td { padding: 4px 14px 4px 0; text-align: right; border-bottom: 1px solid va
 th:first-child, td:first-child { text-align: left; } th { color: var(--soft); font-weight: 600; font-size: 13px; }
 td { font-variant-numeric: tabular-nums; } code { font-size: 14px; background: var(--ground); padding: 1px 5px; }
 pre { background: var(--ground); border: 1px solid var(--line); padding: 10px 14px; overflow-x: auto; font-size: 14px; }
-ul { margin: 6px 0; padding-left: 22px; } sup { line-height: 0; }
+.left { text-align: left; } ul { margin: 6px 0; padding-left: 22px; } sup { line-height: 0; }
 @media (max-width: 720px) { .pair { grid-template-columns: 1fr; } }
 @media print { body { padding: 0; max-width: none; font-size: 11pt; } h2 { break-after: avoid; }
   figure, table, .tiles, .alarm { break-inside: avoid; } .tile, th, code, pre { print-color-adjust: exact; } }

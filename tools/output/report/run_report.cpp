@@ -13,6 +13,7 @@
 #include "tools/output/report.hpp"
 #include "tools/output/report/chart.hpp"
 #include "tools/output/report/html.hpp"
+#include "tools/output/report/run_pictures.hpp"
 #include "tools/output/summary.hpp"
 #include "tools/output/vtk_series.hpp"
 
@@ -35,7 +36,6 @@ struct Run {
 };
 
 std::string heading(const std::string& text) { return "<h2>" + escaped(text) + "</h2>\n"; }
-std::string left_out(const std::string& why) { return "<p class=soft>Left out: " + escaped(why) + "</p>\n"; }
 std::string paragraph(const std::string& text) { return "<p>" + escaped(text) + "</p>\n"; }
 
 std::string milliseconds(const std::optional<double>& time) {
@@ -46,23 +46,6 @@ std::string duration(double seconds) {
   if (seconds < 120) return significant(seconds, 3) + " s";
   if (seconds < 7200) return significant(seconds / 60, 3) + " min";
   return significant(seconds / 3600, 3) + " h";
-}
-
-/// Paints a view into images/NAME.png and embeds it; says why if that fails.
-std::string picture(const Run& run, View view, std::optional<double> time, const std::string& name,
-                    const std::string& caption, const RenderOptions& options = {}) {
-  const fs::path file = run.folder / "images" / (name + ".png");
-  try {
-    std::error_code error;
-    fs::create_directories(file.parent_path(), error);
-    render(run.folder, view, time, file, options);
-  } catch (const OutputError& error) {
-    return left_out(error.what());
-  }
-  std::ifstream stream(file, std::ios::binary);
-  std::stringstream bytes;
-  bytes << stream.rdbuf();
-  return figure_png(bytes.str(), caption);
 }
 
 std::string tile(const std::string& value, const std::string& name) {
@@ -106,27 +89,7 @@ std::string head(const Run& run) {
 std::string geometry(const Run& run) {
   std::string out = heading("The device");
   if (!can_render(run.folder, View::geometry)) return out + left_out("this run has written no walls (vtk/walls.pvd).");
-  return out + picture(run, View::geometry, {}, "geometry",
-                       "The device with its patches. Parallel projection: the scale bar holds everywhere.");
-}
-
-/// Up to four stored moments between the first motion and the last emission.
-std::vector<double> flight_times(const Run& run) {
-  const std::vector<SeriesEntry> entries = read_pvd(run.folder / "vtk/carriers.pvd");
-  const double begin =
-      run.summary.carriers ? run.summary.carriers->first_motion.value_or(entries.front().time) : entries.front().time;
-  const double end =
-      run.summary.carriers ? run.summary.carriers->last_emitted.value_or(entries.back().time) : entries.back().time;
-  std::vector<double> times;
-  for (const double part : {0.10, 0.35, 0.60, 0.85}) {
-    const double wanted = begin + part * (end - begin);
-    const auto nearer = [&](const SeriesEntry& a, const SeriesEntry& b) {
-      return std::abs(a.time - wanted) < std::abs(b.time - wanted);
-    };
-    const double time = std::min_element(entries.begin(), entries.end(), nearer)->time;
-    if (times.empty() || times.back() != time) times.push_back(time);
-  }
-  return times;
+  return out + embedded(run.folder, geometry_picture_of_run());
 }
 
 std::string carriers(const Run& run) {
@@ -135,27 +98,17 @@ std::string carriers(const Run& run) {
   if (!can_render(run.folder, View::carriers)) {
     return out + left_out("no moments of the carriers are stored; set [output] carriers = \"1 ms\".");
   }
-  const std::vector<double> times = flight_times(run);
-  RenderOptions options;
-  options.width = 960, options.height = 640, options.value_max = 0.0;
-  for (const auto& entry : read_pvd(run.folder / "vtk/carriers.pvd")) {
-    if (std::find(times.begin(), times.end(), entry.time) == times.end()) continue;
-    options.value_max = std::max(*options.value_max, speed_scale(read_carrier_frame(run.folder / "vtk" / entry.file)));
-  }
-  out += "<div class=pair>\n";
-  for (std::size_t i = 0; i < times.size(); ++i) {
-    out += picture(run, View::carriers, times[i], "carriers-" + std::to_string(i + 1),
-                   "t = " + shortest(std::round(times[i] * 1e4) / 10) + " ms", options);
-  }
+  out += embedded(run.folder, flight_pictures(run.folder, run.summary));
   const CarrierSummary& c = *run.summary.carriers;
-  out += "</div>\n" + table({"", ""}, {{"loaded", grouped(c.count)},
-                                       {"emitted", grouped(c.emitted)},
-                                       {"retained", grouped(c.retained) + " (" + percent(c.retained_fraction) + ")"},
-                                       {"first motion", milliseconds(c.first_motion)},
-                                       {"first emitted", milliseconds(c.first_emitted)},
-                                       {"last emitted", milliseconds(c.last_emitted)},
-                                       {"retained dose fraction (RDF)", significant(c.RDF, 3)}});
-  return out;
+  out += table({"", ""}, {{"loaded", grouped(c.count)},
+                          {"emitted", grouped(c.emitted)},
+                          {"retained", grouped(c.retained) + " (" + percent(c.retained_fraction) + ")"},
+                          {"first motion", milliseconds(c.first_motion)},
+                          {"first emitted", milliseconds(c.first_emitted)},
+                          {"last emitted", milliseconds(c.last_emitted)},
+                          {"retained dose fraction (RDF)", significant(c.RDF, 3)}});
+  if (c.retained == 0) return out + paragraph("No carrier is left in the device at the end.");
+  return out + embedded(run.folder, retained_picture(run.summary));
 }
 
 std::string emission(const Run& run) {
@@ -284,11 +237,8 @@ std::string wall_map(const Run& run) {
   std::string out = heading("What landed on the walls");
   if (!run.summary.carriers) return out + left_out("this run has no carriers.");
   if (!can_render(run.folder, View::wall_map)) return out + left_out("no wall map is stored.");
-  out += picture(run, View::wall_map, {}, "wall-map",
-                 "On the triangles of the device's own surface, seen from outside; logarithmic.");
-  RenderOptions hits;
-  hits.wall_quantity = "hits";
-  return out + picture(run, View::wall_map, {}, "wall-hits", "Impacts of carriers per area.", hits);
+  return out + embedded(run.folder, wall_map_picture_of_run("fines")) +
+         embedded(run.folder, wall_map_picture_of_run("hits"));
 }
 
 std::string slice(const Run& run) {
@@ -296,7 +246,12 @@ std::string slice(const Run& run) {
   if (!can_render(run.folder, View::slice)) {
     return out + left_out("no fields are stored; add an entry to [output] fields.");
   }
-  return out + picture(run, View::slice, {}, "slice", "Speed on the middle plane at the last stored moment.");
+  out += embedded(run.folder, {"slice", View::slice, {}, "Speed on the middle plane at the last stored moment.", {}});
+  const std::vector<RunPicture> lines = streamline_pictures(run.folder);
+  if (lines.empty())
+    return out +
+           left_out("streamlines: no field of the whole device is stored; set region = \"all\" in [output] fields.");
+  return out + embedded(run.folder, lines);
 }
 
 std::string work(const Run& run) {
@@ -344,8 +299,8 @@ std::string reproduce(const Run& run) {
          "from:</p>\n<pre>" +
          "puffin run case.toml --threads " + std::to_string(run.summary.threads) + " --out again\n" +
          "puffin compare again " + escaped(run.folder.filename().string()) + "</pre>\n" +
-         "<p class=soft>The numbers of this page are in summary.json and history.csv; the pictures are in "
-         "images/.</p>\n";
+         "<p class=soft>The numbers of this page are in summary.csv (and summary.json) and history.csv; the "
+         "pictures are in images/.</p>\n";
 }
 
 }  // namespace
@@ -356,6 +311,7 @@ std::string make_report(const fs::path& folder) {
   if (!run.folder.has_filename()) run.folder = run.folder.parent_path();
   run.summary = read_summary(run.folder / "summary.json");
   if (fs::exists(run.folder / "history.csv")) run.history = read_csv(run.folder / "history.csv");
+  write_summary_table(run.folder);
   std::string body = head(run);
   for (const auto section : {geometry, carriers, emission, outcome, reference, flow, slice, collisions, wall_map, work,
                              numerics, assumptions, reproduce}) {

@@ -7,6 +7,7 @@
 #include "tools/output/report.hpp"
 #include "tools/output/report/chart.hpp"
 #include "tools/output/report/html.hpp"
+#include "tools/output/report/study_sections.hpp"
 #include "tools/output/study_results.hpp"
 
 namespace puffin::output {
@@ -17,13 +18,6 @@ using Rows = std::vector<std::vector<std::string>>;
 
 std::string heading(const std::string& text) { return "<h2>" + escaped(text) + "</h2>\n"; }
 std::string paragraph(const std::string& text) { return "<p>" + escaped(text) + "</p>\n"; }
-
-std::string with_interval(const Estimate* e, double factor = 1.0) {
-  if (!e) return "<span class=soft>none</span>";
-  std::string text = significant(e->mean * factor);
-  if (e->ci_low) text += " &plusmn; " + significant((*e->ci_high - e->mean) * factor, 2);
-  return text;
-}
 
 std::string with_given(const StudyCaseResult& c, const std::string& quantity, double factor = 1.0) {
   const Estimate* e = c.find(quantity);
@@ -44,7 +38,8 @@ std::string overview(const StudyResults& results) {
       if (run.state == "failed") problems += escaped(run.folder + ": " + run.message) + "<br>";
     }
     for (const auto& [key, value] : c.sets) sets += "<code>" + escaped(key + " = " + value) + "</code><br>";
-    rows.push_back({escaped(c.name), sets, std::to_string(done) + " of " + std::to_string(c.runs.size()),
+    rows.push_back({escaped(c.name), "<div class=left>" + sets + "</div>",
+                    std::to_string(done) + " of " + std::to_string(c.runs.size()),
                     with_interval(c.find("simulated_time"), 1e3), with_interval(c.find("wall_clock")), problems});
   }
   return heading("The cases") +
@@ -109,27 +104,32 @@ std::string curves(const StudyResults& results, const fs::path& study, const std
     const auto count = static_cast<double>(std::max<std::int64_t>(1, run->summary->carriers->count));
     for (double& v : value) v /= over_count ? count : 1.0;
     chart.curves.push_back({c.name, time, value});
-    if (chart.curves.size() == 8) {  // more in one frame cannot be told apart
-      break;
-    }
   }
   if (chart.curves.empty()) return "";
   return figure_svg(line_chart(chart), caption);
 }
 
-/// Eight cases a frame, in the order of the study.
+/// By device, at most seven cases a frame: there are no more colours that can be told apart.
 std::string emission(const StudyResults& results, const fs::path& study) {
-  std::string out = heading("Emission over time"), frames;
-  for (std::size_t first = 0; first < results.cases.size(); first += 8) {
-    StudyResults part{results.name, {}};
-    for (std::size_t n = first; n < std::min(first + 8, results.cases.size()); ++n)
-      part.cases.push_back(results.cases[n]);
-    frames += curves(part, study, "carriers_emitted", true, "carriers emitted, of all",
-                     "Carriers that have left (history.csv of the first replicate).");
-    frames += curves(part, study, "FFE", false, "fines emitted free (FFE)",
-                     "Fines that have left free of a carrier; cases that share a run share this curve.");
+  constexpr std::size_t most = 7;
+  std::vector<StudyResults> frames;
+  for (const StudyCaseResult& c : results.cases) {
+    const auto room = std::find_if(frames.begin(), frames.end(), [&](const StudyResults& f) {
+      return f.cases.front().device == c.device && f.cases.size() < most;
+    });
+    if (room == frames.end())
+      frames.push_back({results.name, {}, {c}});
+    else
+      room->cases.push_back(c);
   }
-  return out + (frames.empty() ? paragraph("No run with carriers is done yet.") : frames);
+  std::string out;
+  for (const StudyResults& frame : frames) {
+    out += curves(frame, study, "carriers_emitted", true, "carriers emitted, of all",
+                  "Carriers that have left (history.csv of the first replicate).");
+    out += curves(frame, study, "FFE", false, "fines emitted free (FFE)",
+                  "Fines that have left free of a carrier; cases that share a run share this curve.");
+  }
+  return heading("Emission over time") + (out.empty() ? paragraph("No run with carriers is done yet.") : out);
 }
 
 std::string times(const StudyResults& results) {
@@ -171,12 +171,22 @@ std::string pressures(const StudyResults& results) {
 
 }  // namespace
 
+std::string with_interval(const Estimate* e, double factor) {
+  if (!e) return "<span class=soft>none</span>";
+  std::string text = significant(e->mean * factor);
+  if (e->ci_low) text += " &plusmn; " + significant((*e->ci_high - e->mean) * factor, 2);
+  return text;
+}
+
 std::string make_study_report(const fs::path& study) {
   const StudyResults results = read_study_results(study);
-  return page(results.name, "<h1>" + escaped(results.name) + "</h1>\n" + overview(results) + outcomes(results) +
-                                emission(results, study) + times(results) + collisions(results) + pressures(results) +
-                                "<p class=soft>The numbers of this page are in results.csv, results.json and (run by "
-                                "run) runs.csv; the curves in the history.csv of each run.</p>\n");
+  return page(results.name,
+              "<h1>" + escaped(results.name) + "</h1>\n" + overview(results) + device_section(results, study) +
+                  outcomes(results) + experiment_section(results) + emission(results, study) + times(results) +
+                  carrier_section(results, study) + collisions(results) + pressures(results) + effort_section(results) +
+                  assumption_section(results) +
+                  "<p class=soft>The numbers of this page are in results.csv, results.json and (run by run) runs.csv; "
+                  "the curves in the history.csv of each run.</p>\n");
 }
 
 }  // namespace puffin::output

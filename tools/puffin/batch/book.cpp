@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "tools/output/experiments.hpp"
 #include "tools/output/output_error.hpp"
 #include "tools/output/output_folder.hpp"
 #include "tools/output/report/html.hpp"
@@ -58,7 +59,9 @@ std::string page_of(const Json& status) {
   for (const Json& job : status["runs"]) {
     const double end = job.value("end_time", 0.0), now = job.value("simulated_time", 0.0);
     const bool known = end > 0.0 && job["state"] == "running";
-    rows.push_back({output::escaped(job["id"].get<std::string>()), job["state"].get<std::string>(),
+    const std::string id = output::escaped(job["id"].get<std::string>());
+    rows.push_back({job["state"] == "waiting" ? id : "<a href=\"" + id + "/index.html\">" + id + "</a>",
+                    job["state"].get<std::string>(),
                     known ? "<progress max=1 value=" + output::significant(now / end) + "></progress> " +
                                 output::significant(1e3 * now) + " of " + output::significant(1e3 * end) + " ms"
                           : output::escaped(job.value("message", "")),
@@ -74,11 +77,12 @@ std::string page_of(const Json& status) {
   return html;
 }
 
-/// The base's given values stand for a case that is the same device with the same drug: another grid or output leaves
-/// them, any other change keeps only what it gives itself.
+/// The base's given values stand for a case that is the same device with the same drug: another grid, output or
+/// set of micro-models leaves them, any other change keeps only what it gives itself.
 Json reference_of(const cases::StudyCase& c) {
   const bool same = std::all_of(c.sets.begin(), c.sets.end(), [](const cases::Override& o) {
-    return o.key.starts_with("numerics.") || o.key.starts_with("output.") || o.key.starts_with("reference.");
+    return o.key.starts_with("numerics.") || o.key.starts_with("output.") || o.key.starts_with("reference.") ||
+           o.key == "fines.micromodels";  // other laws of the same drug
   });
   Json reference = Json::object();
   const auto given_here = [&](const std::string& name) {
@@ -96,6 +100,17 @@ Json reference_of(const cases::StudyCase& c) {
   return reference;
 }
 
+/// The device by the generator's name, or that of the STL file; the same name as in a table of experiments.
+std::string device_of(const cases::StudyCase& c) {
+  try {
+    const cases::Geometry geometry = cases::read_case(c.base, c.sets).geometry;
+    if (const auto* made = std::get_if<cases::Generated>(&geometry.source)) return made->kind;
+    return fs::path(std::get<cases::StlFile>(geometry.source).file).stem().string();
+  } catch (const std::exception&) {  // an invalid case; its job says why
+    return "";
+  }
+}
+
 }  // namespace
 
 const char* name_of(JobState state) { return state_names[static_cast<int>(state)]; }
@@ -111,6 +126,10 @@ Book::Book(fs::path folder, const cases::Study& study, const Jobs& plan)
   if (flock(lock_, LOCK_EX | LOCK_NB) != 0) {
     close(lock_);
     throw output::OutputError("another batch is at work in " + folder_.string() + "; wait for it, or give --out");
+  }
+  if (!study.experiments.empty()) {
+    output::read_experiments(study.experiments);  // its mistakes are told now, not after the runs
+    output::write_whole(folder_ / "experiments.csv", text_of(study.experiments));
   }
   const Json before = Json::parse(text_of(folder_ / "study.json"), nullptr, false);
   if (!before.is_object() || !before.contains("jobs")) return;
@@ -133,6 +152,10 @@ bool Book::finished(std::size_t job) const {
   if (text_of(run / "case.toml") == plan_.jobs[job].resolved) return true;
   throw output::OutputError(run.string() + " holds a finished run of another case than the study's " +
                             plan_.jobs[job].id + "; give the changed study another folder with --out");
+}
+
+fs::path Book::replay_file(std::size_t job, const Member& member) const {
+  return run_folder(job) / ("replay-" + output::folder_name(study_.cases[member.which].name) + ".json");
 }
 
 bool Book::resumable(std::size_t job) const {
@@ -160,10 +183,15 @@ void Book::write() const {
     for (std::size_t k = 0; k < plan_.jobs.size(); ++k)
       for (const Member& m : plan_.jobs[k].members)
         if (m.which == n)
-          runs.push_back({{"replicate", plan_.jobs[k].replicate}, {"job", plan_.jobs[k].id}, {"scalar", m.scalar}});
+          runs.push_back({{"replicate", plan_.jobs[k].replicate},
+                          {"job", plan_.jobs[k].id},
+                          {"scalar", m.scalar},
+                          {"replay", m.micromodels.empty() ? "" : replay_file(k, m).filename().string()},
+                          {"fines_of_dose", m.fines_of_dose}});
     const Json reference = reference_of(c);
     cases.push_back({{"name", c.name},
                      {"base", c.base.string()},
+                     {"device", device_of(c)},
                      {"set", sets},
                      {"swept", c.swept},
                      {"reference", reference},

@@ -31,6 +31,10 @@ class Book {
   const std::filesystem::path& folder() const { return folder_; }
   std::filesystem::path run_folder(std::size_t job) const { return folder_ / plan_.jobs[job].id; }
   std::filesystem::path log_file(std::size_t job) const { return folder_ / plan_.jobs[job].id / "run.log"; }
+  /// The list of the runs that share the flow of `job`, for puffin together.
+  std::filesystem::path flow_file(std::size_t job) const { return folder_ / (plan_.jobs[job].flow + ".json"); }
+  /// What the replay for a member writes; read by the tables.
+  std::filesystem::path replay_file(std::size_t job, const Member& member) const;
   JobRecord& record(std::size_t job) { return records_[job]; }
   const JobRecord& record(std::size_t job) const { return records_[job]; }
 

@@ -1,25 +1,37 @@
 #include "tools/puffin/batch/jobs.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
+#include <tuple>
 
 #include "cases/case_error.hpp"
 #include "cases/choices.hpp"
 #include "cases/units.hpp"
 #include "cases/write_case.hpp"
 #include "tools/output/output_folder.hpp"
+#include "tools/puffin/together.hpp"
 
 namespace puffin::tools {
 namespace {
 
-/// What must be equal for two cases to run as one: everything but the names and how their scalar spreads.
-std::string without_scalar(cases::Case c) {
+/// What must be equal for two cases to run as one: everything but the names and what is shared.
+std::string without_shared(cases::Case c, const cases::Share& share) {
   c.name = "shared";
   c.reference.clear();
   c.provenance.clear();
-  c.fines->scalars[0] = {};
+  if (share.scalars) c.fines->scalars[0] = {};
+  if (share.micromodels) c.fines->micromodels = "shared";
   c.fines->scalars[0].name = "shared";
   return cases::write_resolved(c);
+}
+
+/// Mass of the fines over that of carriers and fines.
+double fines_of_dose(const cases::Case& c) {
+  if (!c.carriers) return 0.0;
+  const double ratio = c.carriers->fines_each * c.carriers->fine_mass_ratio;
+  return ratio / (1.0 + ratio);
 }
 
 bool can_share(const cases::Case& c) {
@@ -42,7 +54,7 @@ struct Candidate {
 Candidate candidate(const cases::Study& study, std::size_t which, int replicate, std::string_view preset) {
   Candidate c;
   const cases::StudyCase& asked = study.cases[which];
-  c.job.members = {{which, ""}};
+  c.job.members = {{which, "", "", 0.0}};
   c.job.replicate = replicate;
   c.job.base = asked.base;
   try {
@@ -50,7 +62,9 @@ Candidate candidate(const cases::Study& study, std::size_t which, int replicate,
     c.job.sets = cases::overrides_of(asked, replicate);
     c.job.resolved = cases::write_resolved(*c.described);
     c.job.cost = cost_of(*c.described);
-    if (study.share.scalars && can_share(*c.described)) c.key = without_scalar(*c.described);
+    c.job.members[0].fines_of_dose = fines_of_dose(*c.described);
+    if ((study.share.scalars || study.share.micromodels) && can_share(*c.described))
+      c.key = without_shared(*c.described, study.share);
   } catch (const std::exception& e) {
     c.job.problem = e.what();
   }
@@ -71,7 +85,12 @@ Job merged(const cases::Study& study, const std::vector<Candidate>& all, const s
   for (const std::size_t n : group) {
     const Candidate& c = all[n];
     const std::string& own = study.cases[c.job.members[0].which].name;
-    job.members.push_back({c.job.members[0].which, own});
+    Member member = c.job.members[0];
+    member.scalar = own;
+    if (const std::string& set = c.described->fines->micromodels;
+        set != all[group.front()].described->fines->micromodels)
+      member.micromodels = set;
+    job.members.push_back(member);
     list += (list.empty() ? "" : ", ") + inline_scalar(c.described->fines->scalars[0], own);
     name += (name.empty() ? "" : "+") + own;
   }
@@ -91,26 +110,64 @@ std::string listed(const cases::Study& study, const Job& job) {
 }
 
 void explain(const cases::Study& study, const std::vector<Job>& jobs, std::vector<Sharing>& sharings) {
-  if (study.share.scalars) {
-    bool any = false;
-    for (const Job& job : jobs) {
-      if (job.members.size() < 2 || job.replicate != 0) continue;
-      any = true;
+  for (const Job& job : jobs) {
+    if (job.members.size() < 2 || job.replicate != 0) continue;
+    if (study.share.scalars)
       sharings.push_back(
           {"scalars", true, listed(study, job) + ": one run with a scalar each",
            "air, carriers and contacts are the same to the last bit; of the fines in the air, the number "
            "of transport steps is that of the most diffusive scalar"});
-    }
-    if (!any)
-      sharings.push_back(
-          {"scalars", false, "no two cases differ in the diffusion or scheme of their scalar alone", ""});
+    for (const Member& m : job.members)
+      if (!m.micromodels.empty())
+        sharings.push_back({"micromodels", true,
+                            study.cases[m.which].name + ": the contacts of " + study.cases[job.members[0].which].name +
+                                " replayed with " + std::filesystem::path(m.micromodels).filename().string(),
+                            "FFCR, FFCE and the fines detached and attached are those of a run of its own to rounding; "
+                            "where airborne fines ended is taken from the run, mechanism by mechanism"});
   }
+  for (const auto& [wanted, word, what] :
+       {std::tuple(study.share.scalars, "scalars",
+                   "no two cases differ in the diffusion or scheme of their scalar alone"),
+        std::tuple(study.share.micromodels, "micromodels", "no two cases differ in their micro-models alone")})
+    if (wanted && std::none_of(sharings.begin(), sharings.end(), [&](const Sharing& s) { return s.name == word; }))
+      sharings.push_back({word, false, what, ""});
   if (study.share.geometry)
     sharings.push_back(
         {"geometry", false, "finding the cells takes about a second of a run: not worth a shared file", ""});
   if (study.share.start) sharings.push_back({"start", false, "this version starts every run from air at rest", ""});
-  if (study.share.one_way_flow)
-    sharings.push_back({"one-way-flow", false, "this version computes the flow of every run", ""});
+}
+
+/// Gives jobs of one replicate that can feel the same flow its name, and makes them one-way.
+void share_flows(const cases::Study& study, std::string_view preset, Jobs& plan) {
+  std::map<std::string, std::vector<Job*>> groups;
+  for (Job& job : plan.jobs) {
+    if (!job.problem.empty()) continue;
+    const std::string key = flow_key(cases::read_case(job.base, job.sets, preset));
+    if (!key.empty()) groups[std::to_string(job.replicate) + "\n" + key].push_back(&job);
+  }
+  int number = 0;
+  bool any = false;
+  for (auto& [key, jobs] : groups) {
+    if (jobs.size() < 2) continue;
+    ++number;
+    std::string names;
+    for (Job* job : jobs) {
+      job->flow = "flow-";
+      job->flow += std::to_string(number);
+      job->sets.push_back({"carriers.two_way", "false"});
+      job->resolved = cases::write_resolved(cases::read_case(job->base, job->sets, preset));
+      if (!names.empty()) names += ", ";
+      names += listed(study, *job);
+    }
+    any = true;
+    if (jobs.front()->replicate == 0)
+      plan.sharings.push_back(
+          {"one-way-flow", true, names + ": one flow, and carriers that do not act on it",
+           "approximate: the carriers' reaction on the air is left out; its size is measured by the "
+           "same study without this word (docs/studies.md)"});
+  }
+  if (!any)
+    plan.sharings.push_back({"one-way-flow", false, "no two cases are equal in geometry, air and numerics", ""});
 }
 
 }  // namespace
@@ -133,6 +190,7 @@ Jobs plan_jobs(const cases::Study& study, std::string_view preset) {
     }
   }
   explain(study, plan.jobs, plan.sharings);
+  if (study.share.one_way_flow) share_flows(study, preset, plan);
   return plan;
 }
 

@@ -13,6 +13,8 @@ namespace puffin::tools {
 struct Member {
   std::size_t which = 0;  // index in the study
   std::string scalar;
+  std::string micromodels;     // its fines are replayed with this file; "" they are those of the run
+  double fines_of_dose = 0.0;  // mass of the fines over that of the dose
 };
 
 struct Job {
@@ -24,6 +26,7 @@ struct Job {
   std::string resolved;  // the case as the run will write it; empty if it is invalid
   std::string problem;   // why it is invalid
   double cost = 0.0;     // relative: cells times steps
+  std::string flow;      // jobs with the same one run in one process and one flow; "" alone
 };
 
 struct Sharing {
@@ -38,7 +41,8 @@ struct Jobs {
 };
 
 /// share = scalars: cases that are equal but for their name, reference and the diffusion and scheme of their one
-/// reflected scalar run once with a scalar each: fines do not act on air or carriers.
+/// reflected scalar run once with a scalar each: fines do not act on air or carriers. share = micromodels: those that
+/// are equal but for their micro-models run once with the first one's; the fines of the others are replayed.
 Jobs plan_jobs(const cases::Study& study, std::string_view preset);
 
 }  // namespace puffin::tools

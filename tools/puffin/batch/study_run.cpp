@@ -4,10 +4,15 @@
 
 #include <algorithm>
 #include <csignal>
+#include <cstdlib>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <thread>
 
+#include "tools/output/output_folder.hpp"
+#include "tools/output/summary.hpp"
 #include "tools/puffin/batch/pool.hpp"
+#include "tools/puffin/batch/slurm.hpp"
 #include "tools/puffin/console.hpp"
 #include "tools/puffin/exit_codes.hpp"
 
@@ -30,6 +35,7 @@ std::string last_line(const std::filesystem::path& file) {
 
 struct Running {
   std::size_t job;
+  std::vector<std::size_t> group;  // that run in its process, itself included
   Child child;
   Clock::time_point start;
 };
@@ -46,13 +52,10 @@ class Batch {
   int run() {
     sort_out();
     book_.write();
-    while (!(running_.empty() && (waiting_.empty() || received != 0))) {
-      while (received == 0 && !waiting_.empty() && static_cast<int>(running_.size()) < places_) start_next();
-      if (received != 0 && !told_) tell_to_stop();
-      collect();
-      live(false);
-      std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    }
+    if (options_.slurm)
+      watch_slurm();
+    else
+      run_here();
     book_.write();
     const int code = exit_code();
     live_state_ = code == ok ? "finished" : code == batch_failed ? "failed" : "stopped";
@@ -61,6 +64,60 @@ class Batch {
   }
 
  private:
+  void run_here() {
+    while (!(running_.empty() && (waiting_.empty() || received != 0))) {
+      while (received == 0 && !waiting_.empty() && static_cast<int>(running_.size()) < places_) start_next();
+      if (received != 0 && !told_) tell_to_stop();
+      collect();
+      live(false);
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+  }
+
+  /// The waiting runs as one array; then its tasks are booked as they end. An array that is still in the queue from an
+  /// earlier call is watched, not sent again.
+  void watch_slurm() {
+    SlurmArray array(book_.folder());
+    if (!array.queued()) {
+      std::vector<SlurmTask> tasks;
+      const int threads = std::max(1, options_.threads);
+      for (const std::size_t n : waiting_) {
+        const std::vector<std::size_t> group = group_of(n);
+        for (const std::size_t m : group) {
+          std::filesystem::create_directories(book_.run_folder(m));
+          book_.record(m).threads = threads;
+        }
+        if (group.front() == n) tasks.push_back({n, arguments_of(n, threads), book_.log_file(n)});
+      }
+      if (tasks.empty()) return;
+      array.submit(study_.file.stem().string(), tasks, threads, options_.jobs);
+    }
+    if (!options_.quiet) log_info("Slurm job " + array.id() + ": " + std::to_string(array.open().size()) + " runs");
+    for (const std::size_t n : array.open())
+      for (const std::size_t m : group_of(n)) book_.record(m).state = JobState::waiting;
+    while (received == 0 && !array.open().empty()) {
+      for (const SlurmArray::Change& change : array.poll()) {
+        for (const std::size_t n : group_of(change.job)) {
+          JobRecord& r = book_.record(n);
+          if (change.ended) {
+            ended(n, plan_.jobs[n].flow.empty() || !book_.finished(n) ? change.exit_code : ok);
+          } else if (r.state != JobState::running) {
+            r.state = JobState::running;
+            ++r.attempts;
+          }
+        }
+        book_.write();
+      }
+      live(false);
+      for (int n = 0; n < 20 && received == 0; ++n) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+    if (received == 0) return;
+    for (const std::size_t n : array.open())
+      for (const std::size_t m : group_of(n)) book_.record(m).state = JobState::stopped;
+    log_warning("Slurm job " + array.id() + " goes on; the same command watches it again, 'scancel " + array.id() +
+                "' ends it");
+  }
+
   bool wanted(const Job& job) const {
     return options_.only.empty() || std::any_of(job.members.begin(), job.members.end(), [&](const Member& m) {
              return fnmatch(options_.only.c_str(), study_.cases[m.which].name.c_str(), 0) == 0;
@@ -80,6 +137,7 @@ class Batch {
         r.state = JobState::done;
         r.exit_code = ok;
         r.message.clear();
+        replay_members(n);
         continue;
       }
       if (r.state == JobState::failed && !options_.retry_failed) {
@@ -94,27 +152,69 @@ class Batch {
                      [&](std::size_t a, std::size_t b) { return plan_.jobs[a].cost > plan_.jobs[b].cost; });
   }
 
-  void start_next() {
-    const std::size_t n = waiting_.front();
-    int used = 0;
-    for (const Running& r : running_) used += book_.record(r.job).threads;
-    const int threads =
-        threads_for_next(cores_ - used, places_ - static_cast<int>(running_.size()), static_cast<int>(waiting_.size()));
-    waiting_.erase(waiting_.begin());
+  /// The jobs that are not done and run in one process with this one, itself included, in the order of the plan.
+  std::vector<std::size_t> group_of(std::size_t n) const {
+    if (plan_.jobs[n].flow.empty()) return {n};
+    std::vector<std::size_t> group;
+    for (std::size_t m = 0; m < plan_.jobs.size(); ++m) {
+      const JobState state = book_.record(m).state;
+      const bool now = m == n || std::find(waiting_.begin(), waiting_.end(), m) != waiting_.end() ||
+                       state == JobState::running || state == JobState::stopped;
+      if (plan_.jobs[m].flow == plan_.jobs[n].flow && now && wanted(plan_.jobs[m]) && state != JobState::done)
+        group.push_back(m);
+    }
+    return group;
+  }
+
+  /// Writes the list for puffin together and returns its arguments.
+  std::vector<std::string> arguments_of_flow(const std::vector<std::size_t>& group, int threads) const {
+    nlohmann::json list = nlohmann::json::array();
+    for (const std::size_t m : group) {
+      nlohmann::json sets = nlohmann::json::array();
+      for (const cases::Override& o : plan_.jobs[m].sets) sets.push_back(o.key + "=" + o.value);
+      list.push_back({{"case", plan_.jobs[m].base.string()}, {"out", book_.run_folder(m).string()}, {"set", sets}});
+    }
+    output::write_whole(book_.flow_file(group.front()), list.dump(1) + "\n");
+    std::vector<std::string> arguments{"together", book_.flow_file(group.front()).string(), "--threads",
+                                       std::to_string(threads)};
+    if (!options_.preset.empty()) arguments.insert(arguments.end(), {"--preset", options_.preset});
+    return arguments;
+  }
+
+  /// Of `puffin` for a run, or for its group.
+  std::vector<std::string> arguments_of(std::size_t n, int threads) const {
+    if (const auto group = group_of(n); group.size() > 1) return arguments_of_flow(group, threads);
     const Job& job = plan_.jobs[n];
     std::vector<std::string> arguments{"run",       job.base.string(),      "--out", book_.run_folder(n).string(),
                                        "--threads", std::to_string(threads)};
     if (!options_.preset.empty()) arguments.insert(arguments.end(), {"--preset", options_.preset});
     for (const cases::Override& o : job.sets) arguments.insert(arguments.end(), {"--set", o.key + "=" + o.value});
     if (book_.resumable(n)) arguments.emplace_back("--resume");
-    std::filesystem::create_directories(book_.run_folder(n));
-    JobRecord& r = book_.record(n);
-    r.state = JobState::running;
-    r.threads = threads;
-    r.message.clear();
-    ++r.attempts;
-    if (!options_.quiet) log_info(job.id + ": starts on " + std::to_string(threads) + " threads");
-    running_.push_back({n, Child(arguments, book_.log_file(n)), Clock::now()});
+    return arguments;
+  }
+
+  void start_next() {
+    const std::size_t n = waiting_.front();
+    int used = 0;
+    for (const Running& r : running_) used += book_.record(r.job).threads;
+    int waiting = 0;  // processes; a group is one
+    for (const std::size_t m : waiting_) waiting += group_of(m).front() == m;
+    const int threads = threads_for_next(cores_ - used, places_ - static_cast<int>(running_.size()), waiting);
+    const std::vector<std::size_t> group = group_of(n);
+    const std::vector<std::string> arguments = arguments_of(n, threads);
+    for (const std::size_t m : group) {
+      std::erase(waiting_, m);
+      std::filesystem::create_directories(book_.run_folder(m));
+      JobRecord& r = book_.record(m);
+      r.state = JobState::running;
+      r.threads = m == n ? threads : 0;  // the cores of a group are counted once
+      r.message.clear();
+      ++r.attempts;
+      if (!options_.quiet)
+        log_info(plan_.jobs[m].id + (m == n ? ": starts on " + std::to_string(threads) + " threads"
+                                            : ": runs in the flow of " + plan_.jobs[n].id));
+    }
+    running_.push_back({n, group, Child(arguments, book_.log_file(n)), Clock::now()});
     book_.write();
   }
 
@@ -125,10 +225,10 @@ class Batch {
         ++k;
         continue;
       }
-      const std::size_t n = running_[k].job;
-      book_.record(n).seconds = seconds_since(running_[k].start);
+      const std::vector<std::size_t> group = running_[k].group;
+      for (const std::size_t n : group) book_.record(n).seconds = seconds_since(running_[k].start);
       running_.erase(running_.begin() + static_cast<std::ptrdiff_t>(k));
-      ended(n, *code);
+      for (const std::size_t n : group) ended(n, group.size() > 1 && book_.finished(n) ? ok : *code);
       book_.write();
     }
   }
@@ -138,12 +238,32 @@ class Batch {
     r.exit_code = code;
     if (code == ok && book_.finished(n)) {
       r.state = JobState::done;
+      replay_members(n);
+      if (options_.slurm) r.seconds = output::read_summary(book_.run_folder(n) / "summary.json").wall_clock;
       if (!options_.quiet) log_info(plan_.jobs[n].id + ": done in " + as_time(r.seconds));
     } else if (code == stopped || code == interrupted) {
       r.state = JobState::stopped;
       log_warning(plan_.jobs[n].id + ": stopped; the same command goes on with it");
     } else {
       fail(n, code == ok ? internal_error : code, last_line(book_.log_file(n)));
+    }
+  }
+
+  /// The fines of the cases that differ from the run in their micro-models.
+  void replay_members(std::size_t n) {
+    for (const Member& m : plan_.jobs[n].members) {
+      const std::filesystem::path file = book_.replay_file(n, m), part = file.string() + ".part";
+      if (m.micromodels.empty() || std::filesystem::exists(file)) continue;
+      const std::string program = std::filesystem::read_symlink("/proc/self/exe").string();
+      const int code = std::system((shell_quoted(program) + " replay " + shell_quoted(book_.run_folder(n).string()) +
+                                    " --micromodels " + shell_quoted(m.micromodels) + " --json > " +
+                                    shell_quoted(part.string()) + " 2>> " + shell_quoted(book_.log_file(n).string()))
+                                       .c_str());
+      if (code == 0)
+        output::finish_file(part, file);
+      else
+        log_warning(study_.cases[m.which].name + ": no replay of " + plan_.jobs[n].id + ": " +
+                    last_line(book_.log_file(n)));
     }
   }
 

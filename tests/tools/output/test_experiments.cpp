@@ -1,0 +1,104 @@
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "tests/tools/output/scratch.hpp"
+#include "tools/output/csv_file.hpp"
+#include "tools/output/experiments.hpp"
+#include "tools/output/output_error.hpp"
+#include "tools/output/output_folder.hpp"
+#include "tools/output/report.hpp"
+#include "tools/output/study_results.hpp"
+
+namespace puffin::output {
+namespace {
+
+/// The table that ships with the twelve cases.
+std::vector<Measurement> shipped() {
+  return read_experiments(std::filesystem::path(PUFFIN_SOURCE_DIR) / "cases/study/experiments.csv");
+}
+
+// Tables 4.7 to 4.9 of the thesis, printed to 0.1 mg and 0.01, from its tables B.1 and B.2, which are rounded by `half`
+// (half a digit): that moves a deviation of n values by up to half sqrt(n/(n - 1)) <= 1.23 half for three, and the mean
+// by half.
+TEST(Experiments, GiveTheMeansOfTheThesis) {
+  const auto all = shipped();
+  const auto near = [&](const char* device, const char* copy, const char* quantity, double half, double mean,
+                        double relative) {
+    const Spread s = spread_of(all, device, copy, quantity);
+    EXPECT_NEAR(s.mean, mean, 2 * half) << device << copy << quantity;
+    EXPECT_NEAR(s.relative_deviation(), relative, 0.005 + 1.23 * half / mean) << device << copy << quantity;
+  };
+  near("L-bend", "L1", "dose_mg", 0.05, 8.1, 0.39);
+  near("L-bend", "L2", "FFE", 0.005, 0.43, 0.48);
+  near("L-bend", "L3", "RDF", 0.005, 0.21, 0.27);
+  near("Omega-bend", "O1", "FFE", 0.005, 0.41, 0.20);
+  near("Omega-bend", "O2", "RDF", 0.005, 0.19, 0.70);
+  near("L-bend", "", "FFE", 0.005, 0.41, 0.32);
+  near("omega-bend", "", "FFE", 0.005, 0.38, 0.22);
+  near("l-bend", "", "MMAD_um", 0.005, 1.87, 0.04);
+  EXPECT_EQ(spread_of(all, "L-bend", "", "FFE").tests, 9);
+  EXPECT_EQ(spread_of(all, "L-bend", "", "pressure_drop_kPa").tests, 6);  // three were not measured
+  EXPECT_EQ(spread_of(all, "L-bend", "", "FFE").low, 0.23);
+  EXPECT_EQ(spread_of(all, "L-bend", "", "FFE").high, 0.64);
+}
+
+TEST(Experiments, ATextWhereANumberBelongsIsAnErrorWithItsLine) {
+  const Scratch folder;
+  std::ofstream(folder / "a.csv") << "device,FFE\nL-bend,0.4\nL-bend,much\n";
+  try {
+    read_experiments(folder / "a.csv");
+    FAIL();
+  } catch (const OutputError& e) {
+    EXPECT_NE(std::string(e.what()).find("a.csv:3: 'much'"), std::string::npos) << e.what();
+  }
+  std::ofstream(folder / "b.csv") << "apparatus,FFE\nL-bend,0.4\n";
+  EXPECT_THROW(read_experiments(folder / "b.csv"), OutputError);
+}
+
+/// A study with one finished run whose FFE is 0.5 and whose pressure drop is 3000 Pa.
+void write_study(const Scratch& folder) {
+  Summary s;
+  s.name = "A";
+  s.state = "finished";
+  s.fines = {{"A", 0.5, 0.1, 0.1, 0.3, 0.0, 0.0, {}}};
+  s.pressure.emplace();
+  s.pressure->total_to_static_drop.mean = 3000.0;
+  s.assumptions = {"the air is dry"};
+  s.phases = {{"air", 7.0}};
+  s.skipped = {{"exchanges", 3, 1.5}};
+  std::filesystem::create_directories(folder / "A/seed-1");
+  write_summary(folder / "A/seed-1/summary.json", s);
+  write_whole(folder / "study.json",
+              R"({"study": "s.toml", "cases": [{"name": "A", "device": "l-bend", "set": {}, "reference":
+              {"thesis.FFE": 0.67}, "runs": [{"job": "A/seed-1", "scalar": ""}]}],
+              "jobs": [{"id": "A/seed-1", "state": "done", "exit_code": 0, "message": ""}]})");
+  write_whole(folder / "experiments.csv",
+              "device,copy,test,FFE,pressure_drop_kPa\nL-bend,L1,1,0.4,3.5\nL-bend,L1,2,0.6,\nL-bend,L2,3,0.5,3.7\n");
+}
+
+TEST(Comparison, StandsBesideTheExperimentsInTheirUnits) {
+  const Scratch folder;
+  write_study(folder);
+  write_study_tables(read_study_results(folder.path()), folder.path());
+  const CsvTable t = read_csv(folder / "comparison.csv");
+  ASSERT_EQ(t.rows.size(), 2u);
+  EXPECT_EQ(t.numbers("simulation"), (std::vector<double>{0.5, 3.0}));  // 3000 Pa in kPa
+  EXPECT_EQ(t.numbers("thesis")[0], 0.67);
+  EXPECT_NEAR(t.numbers("experiment")[0], 0.5, 1e-15);
+  EXPECT_NEAR(t.numbers("standard_deviation")[0], 0.1, 1e-15);
+  EXPECT_EQ(t.numbers("tests"), (std::vector<double>{3.0, 2.0}));
+}
+
+TEST(StudyReport, HoldsExperimentsAssumptionsPhasesAndSkips) {
+  const Scratch folder;
+  write_study(folder);
+  const std::string page = make_study_report(folder.path());
+  for (const char* part : {"L-bend: simulation, thesis and experiment", "0.500 &plusmn; 0.10", "pressure drop [kPa]",
+                           "the air is dry", "What was skipped", "exchanges", "L2"})
+    EXPECT_NE(page.find(part), std::string::npos) << part;
+  EXPECT_EQ(page.find("http://"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace puffin::output

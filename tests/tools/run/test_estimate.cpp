@@ -1,0 +1,33 @@
+// What `puffin estimate` says, beside the run that follows.
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/tools/run/small_dose.hpp"
+#include "tools/output/summary.hpp"
+
+namespace puffin {
+namespace {
+
+using Estimate = SmallDose;
+
+// The rehearsal is the run's own beginning, outputs and a checkpoint included: what a run allocates later are contacts,
+// histories and later frames, below a tenth of some 80 MB (the promise of the command is 10 %).
+TEST_F(Estimate, MemoryIsThatOfTheRun) {
+  const std::string program = std::string(PUFFIN_BINARY_DIR) + "/puffin ";
+  const std::string here = "cd " + folder_.string() + " && mkdir -p tmp && ";
+  ASSERT_EQ(std::system((here + "TMPDIR=$PWD/tmp " + program + "estimate case.toml --json > e.json").c_str()), 0);
+  ASSERT_EQ(std::system((here + program + "run case.toml --quiet --out run").c_str()), 0);
+  std::ifstream stream(folder_ / "e.json");
+  const auto said = nlohmann::json::parse(stream);
+  const double memory = output::read_summary(folder_ / "run/summary.json").memory_peak;
+  EXPECT_NEAR(said["memory"].get<double>(), memory, 0.1 * memory);
+  EXPECT_LT(said["seconds_low"].get<double>(), said["seconds"].get<double>());
+  EXPECT_GT(said["seconds_high"].get<double>(), said["seconds"].get<double>());
+  EXPECT_GT(said["rehearsed_steps"].get<int>(), 10);
+  EXPECT_TRUE(std::filesystem::is_empty(folder_ / "tmp"));  // nothing is left of the rehearsal
+}
+
+}  // namespace
+}  // namespace puffin

@@ -1,0 +1,28 @@
+#pragma once
+// Sections of a study's page that need more than its tables: pictures, and what was measured.
+
+#include <filesystem>
+#include <string>
+
+#include "tools/output/study_results.hpp"
+
+namespace puffin::output {
+
+/// "0.412 &plusmn; 0.03": the mean with the half width of its 95 % interval, if there are replicates.
+std::string with_interval(const Estimate* e, double factor = 1.0);
+/// The first replicate that is done; nullptr if none is.
+const StudyRun* first_done(const StudyCaseResult& c);
+
+/// The devices and their air: geometry, streamlines at four times over all and at the pocket. Of the first case of each
+/// device that stores them.
+std::string device_section(const StudyResults& results, const std::filesystem::path& study);
+/// Every case: carriers at four times, what is left at the end, what landed on the walls.
+std::string carrier_section(const StudyResults& results, const std::filesystem::path& study);
+/// By device: every case beside the experiments; then the experiments themselves, by copy and test by test. "" without.
+std::string experiment_section(const StudyResults& results);
+/// What every case assumes, each assumption once.
+std::string assumption_section(const StudyResults& results);
+/// Where the time of each case went, and what was skipped.
+std::string effort_section(const StudyResults& results);
+
+}  // namespace puffin::output
