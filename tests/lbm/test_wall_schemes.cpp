@@ -95,7 +95,7 @@ const WallScheme cell_schemes[] = {WallScheme::psm, WallScheme::ibm};
 TEST(SolidWeight, RunsFromNoneInFluidToAllInSolidAndIsNobleAndTorczynskis) {
   EXPECT_EQ(solid_weight(0.0, 0.7), 0.0);
   EXPECT_DOUBLE_EQ(solid_weight(1.0, 0.7), 1.0);
-  EXPECT_DOUBLE_EQ(solid_weight(0.5, 1.0), 0.5);  // eps/2 / (1/2 + 1/2)
+  EXPECT_DOUBLE_EQ(solid_weight(0.5, 1.0), 0.25);  // eps/2 / (1/2 + 1/2)
 }
 
 // Roma, Peskin & Berger (1999), the three conditions that define the kernel.
