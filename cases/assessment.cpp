@@ -2,11 +2,14 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <stdexcept>
 
 #include "cases/inlet_profile.hpp"
+#include "cases/room.hpp"
 #include "cases/units.hpp"
+#include "cases/untagged_openings.hpp"
 #include "lbm/geometry/voxel_report.hpp"
 
 namespace puffin::cases {
@@ -58,6 +61,9 @@ void warn(const Case& c, Assessment& a) {
   const double gap_cells = a.narrowest_gap / n.dx;
   if (a.narrowest_gap > 0.0 && gap_cells < 4.0)
     say("the narrowest gap, " + format_quantity(a.narrowest_gap, unit::length) + ", has fewer than 4 cells");
+  if (a.thin_walls > 0)
+    say(std::to_string(a.thin_walls) +
+        " links between cells cross a wall thinner than a cell; the flow is stopped there half-way: lower dx");
   if (std::abs(a.volume_voxels / a.volume - 1.0) > 0.05) say("the voxels miss the volume by more than 5 %: lower dx");
   if (c.carriers && c.carriers->diameter * std::cbrt(c.carriers->parcel) > 1.5 * n.dx)
     say("the parcels are larger than the cells: the air they disturb is not the air they should feel");
@@ -81,6 +87,7 @@ std::array<bool, 3> periodic_directions(const Case& c, const Surface& s) {
 }
 
 Assessment assess(const Case& given, const Surface& s) {
+  refuse_untagged_openings(given, s.patches);
   Case c = given;
   complete_file_profiles(s, c);
   Assessment a;
@@ -95,6 +102,7 @@ Assessment assess(const Case& given, const Surface& s) {
     a.inlets.push_back({b.patch, area, speed, reynolds(c.air, speed, 4.0 * area / perimeter_of(s, b.patch))});
   }
   if (c.air.model == AirModel::lbm) {
+    require_room(c, s, std::numeric_limits<double>::infinity());
     a.reference_speed = reference_speed(c, area_of);
     a.lattice = lattice_numbers(c, cell_size(c.numerics, s.volume), a.reference_speed, area_of);
     const std::vector<std::string> openings = openings_of(c);
@@ -106,6 +114,8 @@ Assessment assess(const Case& given, const Surface& s) {
     try {
       const geometry::Voxels voxels = geometry::voxelize(tree, a.lattice->dx, options, &dropped);
       const geometry::VoxelReport report = geometry::voxel_report(tree, voxels, s.patches, openings, dropped);
+      geometry::refuse_buried(report.hidden);
+      a.thin_walls = report.hidden.thin;
       a.cells_fluid = static_cast<std::int64_t>(report.cells_fluid);
       a.volume_voxels = report.volume_voxels;
       a.narrowest_gap = report.narrowest_gap;

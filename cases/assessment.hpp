@@ -27,11 +27,13 @@ struct Assessment {
   std::int64_t cells_fluid = 0;
   double volume_voxels = 0.0;  // [m^3]
   double narrowest_gap = 0.0;  // [m], infinity if no walls face each other; 0: not measured
+  std::size_t thin_walls = 0;  // pairs of fluid cells with a wall between them
   double memory = 0.0;         // [byte], an estimate
   std::vector<std::string> warnings;
 };
 
-/// Voxelises the surface (with a lattice) and measures. Throws as the geometry functions do: nothing inside, a periodic
+/// Voxelises the surface (with a lattice) and measures. Throws as the geometry functions do: an opening that no
+/// boundary tags, nothing inside, faces inside the fluid, a periodic
 /// box that is no whole number of cells, more than four thousand million cells (all as GeometryError).
 Assessment assess(const Case& c, const Surface& surface);
 

@@ -5,8 +5,10 @@ set(PUFFIN_BUILD_SOURCES
   build_carriers.cpp
   build_fines.cpp
   check_boundaries.cpp
+  check_tables.cpp
   initial_air.cpp
   inlet_profile.cpp
   opening.cpp
   point_field.cpp
+  room.cpp
   settle.cpp)

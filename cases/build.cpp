@@ -5,14 +5,18 @@
 #include "cases/check_boundaries.hpp"
 #include "cases/derived.hpp"
 #include "cases/inlet_profile.hpp"
+#include "cases/untagged_openings.hpp"
+#include "cases/room.hpp"
 
 namespace puffin::cases {
 
-std::unique_ptr<Simulation> build(const Case& c, const StoredFieldReader& stored_field) {
+std::unique_ptr<Simulation> build(const Case& c, const StoredFieldReader& stored_field, double available) {
   auto s = std::make_unique<Simulation>();
   s->description = c;
   s->surface = load_surface(c);
   if (const auto problems = boundary_problems(c, s->surface); !problems.empty()) throw CaseError(problems);
+  refuse_untagged_openings(c, s->surface.patches);
+  require_room(c, s->surface, available);
   s->tree = std::make_shared<const lbm::geometry::TriangleTree>(s->surface.mesh);
   if (c.air.model == AirModel::lbm || c.numerics.dx || c.numerics.cells)
     s->dx = cell_size(c.numerics, s->surface.volume);

@@ -2,6 +2,7 @@
 // From a checked Case to a simulation that is ready to step.
 
 #include <functional>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -34,9 +35,11 @@ struct Simulation {
 /// one along, as this folder knows no output formats. Throws std::invalid_argument if the run has no such field.
 using StoredFieldReader = std::function<std::function<Vec3(const Vec3&)>(const RunField&)>;
 
+/// available: memory [byte]; a case that needs for certain more is refused before it takes any.
 /// Throws CaseError (what the geometry or a table beside the case shows to be wrong), GeometryError, StlError,
-/// GeneratorError, std::invalid_argument with a remedy.
-std::unique_ptr<Simulation> build(const Case& c, const StoredFieldReader& stored_field = {});
+/// GeneratorError, TooLarge (room.hpp), std::invalid_argument with a remedy.
+std::unique_ptr<Simulation> build(const Case& c, const StoredFieldReader& stored_field = {},
+                                  double available = std::numeric_limits<double>::infinity());
 
 // The parts, in their order; each adds to the simulation.
 void build_air(Simulation& s);

@@ -11,6 +11,7 @@
 #include "cases/opening.hpp"
 #include "cases/point_field.hpp"
 #include "cases/table_file.hpp"
+#include "lbm/geometry/voxel_errors.hpp"
 #include "lbm/markers.hpp"
 
 namespace puffin::cases {
@@ -95,7 +96,12 @@ void build_lattice(const LatticeNumbers& numbers, Simulation& s) {
   for (const auto& name : openings_of(c))
     if (!is_periodic(c.air, name)) openings.push_back(name);
   if (!openings.empty()) options.openings = s.surface.marked(openings);
-  s.voxels = geometry::voxelize(*s.tree, s.dx, options, &s.pockets);
+  try {
+    s.voxels = geometry::voxelize(*s.tree, s.dx, options, &s.pockets);
+  } catch (const std::invalid_argument& e) {
+    throw geometry::GeometryError(e.what());
+  }
+  geometry::refuse_buried(geometry::hidden_faces(*s.tree, s.voxels, options.openings));
 
   lbm::LinkGeometry links;
   links.mesh = &s.tree->mesh();

@@ -158,6 +158,22 @@ Dose dose_of(const Simulation& s) {
       [&](const Vec3& x) { return s.tree->closest(x).distance; });
 }
 
+/// What a dose that was stacked or read, not settled, does first.
+std::string start_of(const Dose& dose, const Carriers& c) {
+  if (c.fill->shape == FillShape::file) return "; as the file places it";
+  const double fall = dose.height * c.fill->gap / (1.0 + c.fill->gap), g = c.gravity.norm();
+  char text[240];
+  if (!(fall > 0.0) || !(g > 0.0))
+    std::snprintf(text, sizeof text, "; it stays as stacked until something moves it");
+  else
+    std::snprintf(
+        text, sizeof text,
+        "; not in contact at the start: its gaps of %.2g diameters close under gravity, the top falls by up to "
+        "%.2g mm in some %.2g ms, and what touches before the first motion is not counted",
+        c.fill->gap, 1e3 * fall, 1e3 * std::sqrt(2.0 * fall / g));
+  return text;
+}
+
 /// Lets the dose fall, with every opening closed, and says what came of it.
 void settle_dose(Simulation& s, std::vector<dem::Carrier>& carriers) {
   const Carriers& c = *s.description.carriers;
@@ -188,14 +204,20 @@ void build_carriers(Simulation& s) {
            : c.drag == Drag::di_felice ? coupling::DragLaw(coupling::DiFelice{})
            : c.drag == Drag::beetstra  ? coupling::DragLaw(coupling::Beetstra{})
                                        : coupling::DragLaw(coupling::SchillerNaumann{});
-  m.volume_fraction =
-      c.volume_fraction == VolumeFraction::none ? coupling::VolumeFraction::none : coupling::VolumeFraction::in_drag;
+  m.volume_fraction = c.volume_fraction == VolumeFraction::none   ? coupling::VolumeFraction::none
+                      : c.volume_fraction == VolumeFraction::drag ? coupling::VolumeFraction::in_drag
+                                                                  : coupling::VolumeFraction::averaged;
   m.lift = c.lift == Lift::none          ? coupling::Lift::none
            : c.lift == Lift::saffman_mei ? coupling::Lift::saffman_mei
                                          : coupling::Lift::saffman_magnus;
   m.pressure_gradient = c.pressure_gradient;
   m.near_wall = c.near_wall;
   m.two_way = c.two_way;
+  const Numerics& n = s.description.numerics;
+  m.steps_per_exchange = n.coupling_interval;
+  m.steps_per_exchange_asleep =
+      n.skip.resting_exchange ? std::max(m.steps_per_exchange_asleep, n.coupling_interval) : n.coupling_interval;
+  m.carriers.integration.sleep = n.skip.sleeping_carriers;
   m.carriers_start = c.start;
   m.settling = c.fill.has_value();
 
@@ -224,7 +246,10 @@ void build_carriers(Simulation& s) {
       carrier.mass = c.parcel * bare * (1.0 + c.fines_each * c.fine_mass_ratio);
       carriers.push_back(carrier);
     }
-    if (c.fill->shape == FillShape::settled) settle_dose(s, carriers);
+    if (c.fill->shape == FillShape::settled)
+      settle_dose(s, carriers);
+    else
+      s.dose += start_of(dose, c);
   } else {
     s.dose = std::to_string(c.list.size()) + " carriers listed one by one";
     for (const ListedCarrier& listed : c.list) {

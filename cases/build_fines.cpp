@@ -80,6 +80,11 @@ void build_fines(Simulation& s) {
   s.state.routes = lbm::find_routes(air, s.state.fluxes);
   if (s.models.frozen_air)
     coupling::set_frozen_fluxes(air.rows, s.state.routes, s.state.scale, s.models.frozen_air, s.state.fluxes);
+  const Numerics& n = s.description.numerics;
+  s.models.scalars.cfl = n.scalar_cfl;
+  s.models.scalars.skip_empty = n.skip.empty_cells;
+  s.models.idle_transport = n.skip.idle_transport;
+  s.models.transport_steps = n.skip.transport_steps;
   const int sets = static_cast<int>(f.scalars.size());
   s.state.scalars = lbm::ScalarFields(air.rows, coupling::mechanisms * sets, patches_of_openings(air, s.state.routes));
   s.state.budget = lbm::ScalarBudget(air.rows, coupling::mechanisms * sets, static_cast<int>(s.models.patches.size()));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "cases/opening.hpp"
 #include "cases/spelling.hpp"
@@ -30,6 +31,7 @@ class Checks {
       if (b.type == BoundaryType::velocity_inlet) inlet(key, b);
       if (b.type == BoundaryType::slip) slip(key, b);
     }
+    carriers();
     if (c_.carriers && c_.carriers->fill)
       if (const auto* patch = std::get_if<std::string>(&c_.carriers->fill->at)) need("carriers.fill.at", *patch);
     for (const std::string& patch : c_.output.forces)
@@ -114,6 +116,17 @@ class Checks {
                                  format_quantity(-face.normal[0], unit::number) + ", " +
                                  format_quantity(-face.normal[1], unit::number) + ", " +
                                  format_quantity(-face.normal[2], unit::number) + "]");
+  }
+
+  /// Spheres of one size fill at most pi / sqrt(18) of any space (Kepler; Hales, Ann. Math. 162, 1065 (2005)).
+  void carriers() {
+    if (!c_.carriers || !c_.carriers->fill || surface_.volume <= 0.0) return;
+    const double d = c_.carriers->diameter,
+                 all = static_cast<double>(c_.carriers->count) * std::numbers::pi / 6.0 * d * d * d;
+    if (!c_.carriers->sizes && all > std::numbers::pi / std::sqrt(18.0) * surface_.volume)
+      say("carriers.count", "the carriers alone have " + format_quantity(all * 1e9, unit::number) +
+                                " mm^3, the device " + format_quantity(surface_.volume * 1e9, unit::number) +
+                                " mm^3; give fewer or smaller ones");
   }
 
   /// Reflection along the grid is exact only on planes of the grid: refuse the rest instead of adding friction.

@@ -46,7 +46,7 @@ constexpr std::array size_laws{word(SizeLaw::log_normal, "log-normal", yes),
 constexpr std::array drags{word(Drag::none, "none", yes), word(Drag::schiller_naumann, "schiller-naumann", yes),
                            word(Drag::di_felice, "di-felice", yes), word(Drag::beetstra, "beetstra", yes)};
 constexpr std::array volume_fractions{word(VolumeFraction::none, "none", yes), word(VolumeFraction::drag, "drag", yes),
-                                      word(VolumeFraction::averaged, "averaged", no)};
+                                      word(VolumeFraction::averaged, "averaged", yes)};
 constexpr std::array lifts{word(Lift::none, "none", yes), word(Lift::saffman_mei, "saffman-mei", yes),
                            word(Lift::saffman_magnus, "saffman-magnus", yes)};
 constexpr std::array outsides{word(Outside::remove, "remove", yes), word(Outside::bounce, "bounce", yes)};

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <numbers>
@@ -79,8 +80,10 @@ std::vector<double> numbers_of(const std::string& row) {
 
 /// Rows x, y, z[, diameter]; empty lines, lines that begin with '#' and one header line are skipped.
 void read_file(const DoseSpec& spec, double default_diameter, Dose& dose) {
+  std::error_code error;
   std::ifstream in(spec.file);
-  if (!in) throw std::runtime_error("dose: cannot open " + spec.file);
+  if (!in || !std::filesystem::is_regular_file(spec.file, error))
+    throw std::invalid_argument("dose: cannot read " + spec.file + " as a table of positions");
   std::string line;
   bool header_allowed = true;
   for (int number = 1; std::getline(in, line); ++number) {
@@ -90,8 +93,8 @@ void read_file(const DoseSpec& spec, double default_diameter, Dose& dose) {
     if (may_be_header && std::isalpha(static_cast<unsigned char>(line[first])) != 0) continue;
     const std::vector<double> row = numbers_of(line);
     if (row.size() < 3 || row.size() > 4 || (row.size() == 4 && row[3] <= 0.0))
-      throw std::runtime_error("dose: " + spec.file + ":" + std::to_string(number) +
-                               ": expected x,y,z or x,y,z,diameter, numbers in metres");
+      throw std::invalid_argument("dose: " + spec.file + ":" + std::to_string(number) +
+                                  ": expected x,y,z or x,y,z,diameter, numbers in metres");
     dose.positions.emplace_back(row[0], row[1], row[2]);
     const std::size_t at = dose.radius.size();
     const double drawn = at < spec.sizes.size() ? parcel_diameter(spec.sizes[at], spec.parcel) : default_diameter;

@@ -50,6 +50,8 @@ micromodels::TableLaw read_table(const std::string& file, bool may_fall, Validit
   if (speed->second.size() != values.size() ||
       std::any_of(values.begin(), values.end(), [](double v) { return std::isnan(v); }))
     throw std::invalid_argument(file + ": needs each pair of a speed and an angle exactly once");
+  if (value->first == "fraction" && *std::max_element(values.begin(), values.end()) > 1.0)
+    throw std::invalid_argument(file + ": a fraction above 1 would take more fines than there are");
   return micromodels::TableLaw(speeds, angles, values, may_fall, valid);
 }
 

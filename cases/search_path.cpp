@@ -12,6 +12,13 @@ std::filesystem::path installed() {
   return (program.parent_path() / "../share/puffin").lexically_normal();
 }
 
+/// The folder of that name in the installation, or, where there is none, in cases/ of the source tree.
+std::filesystem::path folder_of(const std::string& name) {
+  std::error_code error;
+  const std::filesystem::path there = installed() / name;
+  return std::filesystem::is_directory(there, error) ? there : std::filesystem::path(PUFFIN_CASES_DIR) / name;
+}
+
 }  // namespace
 
 std::span<const std::string> micromodel_directories() {
@@ -20,11 +27,9 @@ std::span<const std::string> micromodel_directories() {
   return folders;
 }
 
-std::filesystem::path verification_directory() {
-  std::error_code error;
-  const std::filesystem::path there = installed() / "verify";
-  return std::filesystem::is_directory(there, error) ? there : std::filesystem::path(PUFFIN_CASES_DIR) / "verify";
-}
+std::filesystem::path verification_directory() { return folder_of("verify"); }
+
+std::filesystem::path bench_directory() { return folder_of("bench"); }
 
 std::filesystem::path found_micromodels(const std::filesystem::path& file) {
   std::error_code error;

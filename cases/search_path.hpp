@@ -15,6 +15,9 @@ std::span<const std::string> micromodel_directories();
 /// none, cases/verify of the source tree it was built from.
 std::filesystem::path verification_directory();
 
+/// The cases of `puffin bench pareto`: share/puffin/bench of the installation, or cases/bench of the source tree.
+std::filesystem::path bench_directory();
+
 /// The file as given if it is there, else the one of that name in micromodel_directories(), else as given.
 std::filesystem::path found_micromodels(const std::filesystem::path& file);
 

@@ -13,9 +13,11 @@
 #include <utility>
 
 #include "coupling/advance_together.hpp"
+#include "coupling/averaged.hpp"
 #include "coupling/divergence.hpp"
 #include "coupling/drag_limit.hpp"
 #include "coupling/field_forces.hpp"
+#include "coupling/self_disturbance.hpp"
 #include "coupling/state.hpp"
 #include "coupling/volume_fraction.hpp"
 #include "dem/advance.hpp"
@@ -94,6 +96,7 @@ void give_reaction(double interval, State& s) {
   } else {
     s.spread_on = Stencils();
   }
+  if (!s.pores.cells.empty()) share_force(s);
   flag_runs(s.touched, lbm::run_forced, *s.air);
 }
 
@@ -119,15 +122,15 @@ void step_air(const Models& models, int steps, double rescale, std::span<const C
     } else if (n == 0) {
       for (auto& f : air.run_flags) f = static_cast<std::uint8_t>(f & ~lbm::run_moments);
     }
-    lbm::KernelReport report;
-    {
+    const lbm::KernelReport report = [&] {
       const Stopwatch watch(s.effort.air);
-      report = lbm::collide_and_stream(constants, s.drive, air);
-    }
-    {
-      const Stopwatch watch(s.effort.links);
+      if (s.pores.cells.empty()) return lbm::advance_air(constants, s.drive, air);
+      const lbm::KernelReport collided = lbm::collide_and_stream(constants, s.drive, air);
+      lbm::measure_exchange(air, s.pores);
       lbm::apply_links(s.drive, air);
-    }
+      lbm::apply_exchange(air, s.pores);
+      return collided;
+    }();
     if (report.bad) report_bad_cell(air, s.scale, s.time);
     s.extremes.max_speed_lu = std::max(s.extremes.max_speed_lu, std::sqrt(report.max_speed2));
     s.extremes.min_tau = std::min(s.extremes.min_tau, tau);
@@ -159,7 +162,7 @@ void find_loads(const Models& models, double interval, State& s) {
   if (!s.air && !models.frozen_air) return;
   std::vector<double> beta(count, 0.0), solid, volume;
   double largest_fraction = 1.0;
-  if (s.air && models.volume_fraction == VolumeFraction::in_drag) {
+  if (s.air && models.volume_fraction != VolumeFraction::none) {
     volume.resize(count);
     for (std::size_t p = 0; p < count; ++p)
       volume[p] = c.carriers[p] * 4.1887902047863909846 * std::pow(c.single_radius[p], 3);
@@ -173,12 +176,14 @@ void find_loads(const Models& models, double interval, State& s) {
       middle[p] = velocity[p] + (c.velocity[p] - velocity[p]) * std::exp(-0.5 * interval * beta[p] / c.mass[p]);
     drag_coefficients(models.drag, models.air, which, velocity, middle, c.single_radius, c.carriers, solid, beta);
   }
+  if (computes_air(models, s) && models.two_way) take_off_self(models, solid, s, velocity, beta);
   if (computes_air(models, s))
-    for (const int p : s.stencils.outside()) beta[p] = 0.0;  // no air there: nothing drags
-  const bool harmless = !volume.empty() && load_bound(largest_fraction, beta, volume, interval, s.scale) <= 1.0;
+    for (const int p : s.stencils.outside()) beta[p] = 0.0;      // no air there: nothing drags
+  const double reaction_time = interval / least_share(s.pores);  // a cell that is partly solid holds less air
+  const bool harmless = !volume.empty() && load_bound(largest_fraction, beta, volume, reaction_time, s.scale) <= 1.0;
   if (computes_air(models, s) && models.two_way && !harmless) {
     std::vector<double> scratch(count, 0.0);
-    limit_drag(s.stencils, interval, s.scale, s.spreader, scratch, beta);
+    limit_drag(s.stencils, reaction_time, s.scale, s.spreader, scratch, beta);
   }
   for (std::size_t p = 0; p < count; ++p) {
     s.loads[p].air_velocity = velocity[p];
@@ -256,7 +261,7 @@ void move_fines(const Models& models, std::int64_t steps, double interval, State
 /// limit.
 void carry_fines(const Models& models, bool now, State& s) {
   if (s.scalars.scalars() == 0 || !s.air) return;
-  if (!s.airborne) {
+  if (!s.airborne && models.idle_transport) {
     s.steps_since_scalars = 0;
     return;
   }
@@ -267,14 +272,19 @@ void carry_fines(const Models& models, bool now, State& s) {
   lbm::ScalarOptions options = models.scalars;
   for (std::size_t k = 0; k < options.scalar.size(); ++k)
     options.scalar[k].diffusivity = s.scale.viscosity_lu(models.diffusion[k]);
-  if (computes_air(models, s)) lbm::find_mass_fluxes(*s.air, s.routes, s.fluxes);  // a frozen field's stay
+  if (computes_air(models, s)) {  // a frozen field's stay
+    lbm::find_mass_fluxes(*s.air, s.routes, s.fluxes);
+    if (!s.pores.cells.empty()) lbm::share_fluxes(*s.air, s.pores, s.routes, s.fluxes);
+  }
   try {
     lbm::advance_scalars(s.air->rows, s.fluxes, static_cast<double>(s.steps_since_scalars), options, s.scalars,
                          s.budget);
   } catch (const std::runtime_error& e) {
     diverge("%s (t = %.6g s)", e.what(), s.time);
   }
-  s.steps_per_scalar_update = std::clamp(std::floor(lbm::max_steps(s.air->rows, s.fluxes, options.cfl)), 1.0, 64.0);
+  s.steps_per_scalar_update =
+      models.transport_steps ? std::clamp(std::floor(lbm::max_steps(s.air->rows, s.fluxes, options.cfl)), 1.0, 64.0)
+                             : 1.0;
   s.effort.scalar_steps += s.steps_since_scalars;
   s.steps_since_scalars = 0;
 }
@@ -313,7 +323,7 @@ Interval interval_until(double until, int most, double old_dt, const State& s) {
 /// Where the carriers are, before the air moves.
 void find_stencils(const Models& models, const Interval& interval, State& s) {
   if (all_asleep(s.carriers.carriers) && s.carriers.carriers.size() > 0)
-    s.effort.exchanges_saved += interval.steps / models.steps_per_exchange - 1;
+    s.effort.exchanges_saved += std::max(0, interval.steps / models.steps_per_exchange - 1);
   if (!s.air) return;
   const Stopwatch watch(s.effort.exchange);
   if (computes_air(models, s)) give_reaction(interval.seconds, s);
@@ -321,6 +331,7 @@ void find_stencils(const Models& models, const Interval& interval, State& s) {
   for (std::size_t p = 0; p < all.size(); ++p) all[p] = static_cast<int>(p);
   s.stencils_at = {s.carriers.carriers.position, s.carriers.carriers.radius};
   s.stencils.build(s.cells, s.stencils_at.position, s.stencils_at.radius, all);
+  if (computes_air(models, s)) follow_volume(models, interval.steps, s);
 }
 
 /// Carriers and fines over the interval that the air has done.
@@ -345,7 +356,8 @@ void follow_air(const Models& models, const Interval& interval, double until, St
     }
   }
   // The caller reads the air at `until`: with the forces of the walls as they belong to it.
-  if (computes_air(models, s) && s.time + interval.seconds >= until * (1.0 - 1e-12)) lbm::settle_walls(s.drive, *s.air);
+  if (computes_air(models, s) && s.time + interval.seconds >= until * (1.0 - 1e-12))
+    lbm::settle_walls(s.drive, *s.air);
   s.time += interval.seconds;
   move_fines(models, interval.steps, interval.seconds, s);
   carry_fines(models, s.time >= until * (1.0 - 1e-12), s);  // the caller reads them at `until`

@@ -67,7 +67,10 @@ void add_near_wall(const Models& m, double interval, std::vector<dem::WallTouch>
 }  // namespace
 
 void add_field_forces(const Models& m, double interval, State& s) {
-  const bool gradients = m.lift != Lift::none || m.pressure_gradient;
+  const bool averaged = m.volume_fraction == VolumeFraction::averaged;
+  const bool pressure = m.pressure_gradient || averaged;
+  const bool gradients = m.lift != Lift::none || pressure;
+  if (averaged) s.pressure_forces.assign(s.carriers.carriers.size(), Vec3::Zero());
   if ((!gradients && !m.near_wall) || (!s.air && !m.frozen_air)) return;
   const dem::Carriers& c = s.carriers.carriers;
   if (s.air && gradients) interpolate_gradients(s.stencils, s.air->moments, c.size(), s.gradients);
@@ -81,10 +84,11 @@ void add_field_forces(const Models& m, double interval, State& s) {
       const Matrix3d gradient = s.air ? Matrix3d(s.gradients.velocity_lu[p] / s.scale.dt)
                                       : gradient_of(m.frozen_air, c.position[p], 0.5 * c.radius[p]);
       if (m.lift != Lift::none) add_lift(m, interval, curl(gradient), p, s);
-      if (m.pressure_gradient) {
+      if (pressure) {
         const Vec3 slope = s.air ? Vec3(s.gradients.density_excess_lu[p] * (s.scale.pressure(1.0) / s.scale.dx))
                                  : Vec3(-m.air.density * (gradient * s.loads[p].air_velocity));
         s.loads[p].force -= volume_of(c, p) * slope;
+        if (averaged) s.pressure_forces[p] = -volume_of(c, p) * slope;
       }
     }
     if (m.near_wall) add_near_wall(m, interval, touches, p, s);
@@ -94,7 +98,10 @@ void add_field_forces(const Models& m, double interval, State& s) {
 void add_field_reaction(double interval, State& s) {
   const dem::Carriers& c = s.carriers.carriers;
   for (std::size_t p = 0; p < s.impulse_on_air.size(); ++p)
-    if (c.rest[p] == dem::Rest::awake) s.impulse_on_air[p] -= interval * s.loads[p].force;
+    if (c.rest[p] == dem::Rest::awake) {
+      s.impulse_on_air[p] -= interval * s.loads[p].force;
+      if (p < s.pressure_forces.size()) s.impulse_on_air[p] += interval * s.pressure_forces[p];
+    }
 }
 
 }  // namespace puffin::coupling

@@ -1,4 +1,5 @@
 set(PUFFIN_COUPLING_SOURCES
+  averaged.cpp
   cell_index.cpp
   checkpoint/carriers.cpp
   checkpoint/file.cpp
@@ -15,6 +16,7 @@ set(PUFFIN_COUPLING_SOURCES
   kernel.cpp
   release_fines.cpp
   replay_fines.cpp
+  self_disturbance.cpp
   slip_history.cpp
   statistics.cpp
   stencils.cpp

@@ -26,6 +26,7 @@
 #include "lbm/air.hpp"
 #include "lbm/inlet_turbulence.hpp"
 #include "lbm/mass_fluxes.hpp"
+#include "lbm/pore_space.hpp"
 #include "lbm/scalars/advance_scalars.hpp"
 #include "micromodels/fines_models.hpp"
 
@@ -42,7 +43,9 @@ struct PatchDrive {
   double area = 0.0;  // [m^2]
 };
 
-enum class VolumeFraction { none, in_drag };
+/// Where the carriers' own volume counts: nowhere, in the drag law, there and in the equations of the air and the
+/// fines.
+enum class VolumeFraction { none, in_drag, averaged };
 
 /// Immutable during a run.
 struct Models {
@@ -68,6 +71,8 @@ struct Models {
   lbm::ScalarOptions scalars;     // diffusivity is set from `diffusion` each step
   int steps_per_exchange = 4;     // air steps between two exchanges with moving carriers
   int steps_per_exchange_asleep = 16;
+  bool idle_transport = true;   // leave the transport out until fines are airborne
+  bool transport_steps = true;  // transport in longer steps than the exchange interval where the flow allows it
 };
 
 /// A carrier that left through an opening.
@@ -126,6 +131,8 @@ struct State {
   std::vector<Vec3> impulse_on_air;  // [N s] by place in `stencils`, to be given to the air in the next exchange
   MomentumBooking momentum;          // sums since the start [N s]
   std::vector<dem::Load> loads;
+  lbm::PoreSpace pores;               // of VolumeFraction::averaged
+  std::vector<Vec3> pressure_forces;  // [N] by carrier, the part of `loads` without reaction; only if averaged
   FinesRelease release;
 
   lbm::ScalarFields scalars;

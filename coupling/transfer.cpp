@@ -131,4 +131,19 @@ double Spreader::smooth(const Stencils& stencils, std::span<const double> value,
   return largest.empty() ? 0.0 : *std::max_element(largest.begin(), largest.end());
 }
 
+void Spreader::collect(const Stencils& stencils, std::span<const double> value, std::vector<std::int32_t>& slots,
+                       std::vector<double>& sums) {
+  slots.clear(), sums.clear();
+  for_each_by_tile(stencils, [&](int, const Stencil& stencil) {
+    const double v = value[stencil.carrier];
+    for (const StencilEntry& e : stencils.entries(stencil)) scalar_[e.slot] += e.weight * v;
+  });
+  for (const Stencil& stencil : stencils.stencils())
+    for (const StencilEntry& e : stencils.entries(stencil)) {
+      if (scalar_[e.slot] == 0.0) continue;
+      slots.push_back(e.slot), sums.push_back(scalar_[e.slot]);
+      scalar_[e.slot] = 0.0;
+    }
+}
+
 }  // namespace puffin::coupling

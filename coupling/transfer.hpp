@@ -62,6 +62,10 @@ class Spreader {
   /// Returns the largest s_j, before the limit.
   double smooth(const Stencils& stencils, std::span<const double> value, double ceiling, std::span<double> result);
 
+  /// s_j as above, for every cell of the stencils once, in an order that depends on the positions alone.
+  void collect(const Stencils& stencils, std::span<const double> value, std::vector<std::int32_t>& slots,
+               std::vector<double>& sums);
+
  private:
   std::vector<Eigen::Vector3d> momentum_;  // by slot [N s]
   std::vector<double> scalar_;             // by slot

@@ -86,6 +86,10 @@ KernelReport collide_and_stream(const CollisionConstants& constants, const Drive
 /// Walls, openings and periodic faces; completes the step. To be called once after each collide_and_stream.
 void apply_links(const Drive& drive, Air& air);
 
+/// Both at once, to the same bits, in one pass: the links of cells are applied while these are still in the cache
+/// (link_schedule.hpp).
+KernelReport advance_air(const CollisionConstants& constants, const Drive& drive, Air& air);
+
 /// Density and velocity at an active slot between steps (force of the coming step not included, but that of markers as
 /// it was laid last).
 CellMoments<double> moments_at(const Air& air, std::ptrdiff_t slot);

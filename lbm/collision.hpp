@@ -26,6 +26,16 @@ template <class Real>
     return static_cast<Real>(value);
 }
 
+/// Inverse and square root of a number type. A kernel may give its packs faster ones, right to rounding.
+template <class Real>
+struct Arithmetic {
+  [[gnu::always_inline]] static inline Real inverse(const Real& x) { return constant<Real>(1) / x; }
+  [[gnu::always_inline]] static inline Real root(const Real& x) {
+    using std::sqrt;
+    return sqrt(x);
+  }
+};
+
 /// A direction known at compile time.
 template <int I>
 using Index = std::integral_constant<int, I>;
@@ -54,11 +64,18 @@ struct Hydrodynamics {
   Real pi[6];                   // Pi
 };
 
-/// Reads the 19 populations once and returns their moments. Forced: F is the body force on the cell.
-template <bool Forced, class Real, class Get>
-[[gnu::always_inline]] inline Hydrodynamics<Real> hydrodynamics(const Get& get, const Real (&force)[3]) {
-  Hydrodynamics<Real> h;
-  Real m[6];
+/// Sums over the 19 populations, nothing else: no division yet.
+template <class Real>
+struct RawMoments {
+  Real drho;  // sum_i g_i
+  Real j[3];  // sum_i g_i c_i
+  Real m[6];  // sum_i g_i c_a c_b, order as Pi
+};
+
+/// Reads the 19 populations once and returns their sums.
+template <class Real, class Get>
+[[gnu::always_inline]] inline RawMoments<Real> raw_moments(const Get& get) {
+  RawMoments<Real> r;
   // The four diagonals of a plane (a,b), in the order ++, --, +-, -+.
   struct Plane {
     Real sum, cross, a, b;
@@ -70,32 +87,41 @@ template <bool Forced, class Real, class Get>
   const Plane xy = plane(get(Index<7>()), get(Index<8>()), get(Index<9>()), get(Index<10>()));
   const Plane xz = plane(get(Index<11>()), get(Index<12>()), get(Index<13>()), get(Index<14>()));
   const Plane yz = plane(get(Index<15>()), get(Index<16>()), get(Index<17>()), get(Index<18>()));
-  m[0] = xy.sum + xz.sum;
-  m[1] = xy.sum + yz.sum;
-  m[2] = xz.sum + yz.sum;
-  m[3] = xy.cross;
-  m[4] = xz.cross;
-  m[5] = yz.cross;
-  h.drho = (m[0] + yz.sum) + get(Index<0>());
+  r.m[0] = xy.sum + xz.sum;
+  r.m[1] = xy.sum + yz.sum;
+  r.m[2] = xz.sum + yz.sum;
+  r.m[3] = xy.cross;
+  r.m[4] = xz.cross;
+  r.m[5] = yz.cross;
+  r.drho = (r.m[0] + yz.sum) + get(Index<0>());
   const auto axis = [&](Real p, Real n, Real side, int d) __attribute__((always_inline)) {
     const Real both = p + n;
-    m[d] = m[d] + both;
-    h.drho = h.drho + both;
-    h.j[d] = (p - n) + side;
+    r.m[d] = r.m[d] + both;
+    r.drho = r.drho + both;
+    r.j[d] = (p - n) + side;
   };
   axis(get(Index<1>()), get(Index<2>()), xy.a + xz.a, 0);
   axis(get(Index<3>()), get(Index<4>()), xy.b + yz.a, 1);
   axis(get(Index<5>()), get(Index<6>()), xz.b + yz.b, 2);
+  return r;
+}
+
+/// What follows from the sums. Forced: F is the body force on the cell.
+template <bool Forced, class Real>
+[[gnu::always_inline]] inline Hydrodynamics<Real> hydrodynamics(const RawMoments<Real>& r, const Real (&force)[3]) {
+  Hydrodynamics<Real> h;
+  h.drho = r.drho;
+  for (int d = 0; d < 3; ++d) h.j[d] = r.j[d];
   if constexpr (Forced)
     for (int d = 0; d < 3; ++d) h.j[d] = h.j[d] + constant<Real>(0.5) * force[d];
   h.rho = constant<Real>(1) + h.drho;
-  h.inverse_rho = constant<Real>(1) / h.rho;
+  h.inverse_rho = Arithmetic<Real>::inverse(h.rho);
   for (int d = 0; d < 3; ++d) h.u[d] = h.j[d] * h.inverse_rho;
   const Real third = h.drho * constant<Real>(1.0 / 3.0);
-  for (int d = 0; d < 3; ++d) h.pi[d] = (m[d] - third) - h.j[d] * h.u[d];
-  h.pi[3] = m[3] - h.j[0] * h.u[1];
-  h.pi[4] = m[4] - h.j[0] * h.u[2];
-  h.pi[5] = m[5] - h.j[1] * h.u[2];
+  for (int d = 0; d < 3; ++d) h.pi[d] = (r.m[d] - third) - h.j[d] * h.u[d];
+  h.pi[3] = r.m[3] - h.j[0] * h.u[1];
+  h.pi[4] = r.m[4] - h.j[0] * h.u[2];
+  h.pi[5] = r.m[5] - h.j[1] * h.u[2];
   if constexpr (Forced) {
     const Real half = constant<Real>(0.5);
     for (int d = 0; d < 3; ++d) h.pi[d] = h.pi[d] + h.u[d] * force[d];
@@ -104,6 +130,12 @@ template <bool Forced, class Real, class Get>
     h.pi[5] = h.pi[5] + half * (h.u[1] * force[2] + h.u[2] * force[1]);
   }
   return h;
+}
+
+/// Both at once.
+template <bool Forced, class Real, class Get>
+[[gnu::always_inline]] inline Hydrodynamics<Real> hydrodynamics(const Get& get, const Real (&force)[3]) {
+  return hydrodynamics<Forced>(raw_moments<Real>(get), force);
 }
 
 template <class Real>
@@ -125,12 +157,11 @@ template <class Real>
 /// and `les` = 36 nu_t (nu_t + tau0/3) makes it tau0 + 3 nu_t (prescribed_les).
 template <class Real>
 [[gnu::always_inline]] inline Real twice_tau(const Real (&p)[6], const CollisionConstants& c, const Real& les) {
-  using std::sqrt;
   const Real diagonal = p[0] * p[0] + p[1] * p[1] + p[2] * p[2];
   const Real across = p[3] * p[3] + p[4] * p[4] + p[5] * p[5];
-  const Real norm =
-      sqrt(constant<Real>(c.from_stress) * (diagonal + (across + across)) + constant<Real>(1.0 - c.from_stress));
-  return constant<Real>(c.tau0) + sqrt(constant<Real>(c.tau0 * c.tau0) + les * norm);
+  const Real norm = Arithmetic<Real>::root(constant<Real>(c.from_stress) * (diagonal + (across + across)) +
+                                           constant<Real>(1.0 - c.from_stress));
+  return constant<Real>(c.tau0) + Arithmetic<Real>::root(constant<Real>(c.tau0 * c.tau0) + les * norm);
 }
 
 /// The `les` that gives the eddy viscosity nu_t [lattice units], over the density as twice_tau takes it:

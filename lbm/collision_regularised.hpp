@@ -1,9 +1,9 @@
 #pragma once
 // Regularised laws: what a cell keeps are density, velocity and the relaxed stress; all 19 populations are made anew
-// from these ten numbers. Three steps: find_state reads the populations, relax finds the factor of the stress, assemble
-// writes the populations. A kernel does each for many cells before the next: the square roots and divisions of relax
-// then no longer wait for each other (2.5 times faster than cell by cell), and the positivity limiter can scale the
-// stress.
+// from these ten numbers. Four steps: read_moments sums the populations, find_stress divides, relax finds the factor of
+// the stress, assemble writes the populations. A kernel does each for many cells before the next: the square roots and
+// divisions then no longer wait for each other (2.5 times faster than cell by cell), and the positivity limiter can
+// scale the stress.
 
 #include "lbm/collision.hpp"
 
@@ -17,16 +17,36 @@ struct CellState {
   Real p[6];        // stress without trace: Pi before relax, (1 - omega) Pi for assemble
 };
 
-/// Reads a cell; the trace of the stress is relaxed at 1. `les` is 18 sqrt2 L^2, and over the density on return.
-template <bool Forced, class Real, class Get>
-[[gnu::always_inline]] inline void find_state(const Get& get, const Real (&force)[3], Real& les, CellState<Real>& s) {
-  Hydrodynamics<Real> h = hydrodynamics<Forced>(get, force);
+/// Reads a cell: raw moments into drho, j and p.
+template <class Real, class Get>
+[[gnu::always_inline]] inline void read_moments(const Get& get, CellState<Real>& s) {
+  const RawMoments<Real> r = raw_moments<Real>(get);
+  s.drho = r.drho;
+  for (int d = 0; d < 3; ++d) s.j[d] = r.j[d];
+  for (int n = 0; n < 6; ++n) s.p[n] = r.m[n];
+}
+
+/// From raw moments to velocity and stress; the trace of the stress is relaxed at 1. `les` is 18 sqrt2 L^2, and over
+/// the density on return.
+template <bool Forced, class Real>
+[[gnu::always_inline]] inline void find_stress(const Real (&force)[3], Real& les, CellState<Real>& s) {
+  RawMoments<Real> r;
+  r.drho = s.drho;
+  for (int d = 0; d < 3; ++d) r.j[d] = s.j[d];
+  for (int n = 0; n < 6; ++n) r.m[n] = s.p[n];
+  Hydrodynamics<Real> h = hydrodynamics<Forced>(r, force);
   remove_trace(h.pi);
   les = les * h.inverse_rho;
-  s.drho = h.drho;
   for (int d = 0; d < 3; ++d) s.j[d] = h.j[d];
   for (int d = 0; d < 3; ++d) s.u[d] = h.u[d];
   for (int n = 0; n < 6; ++n) s.p[n] = h.pi[n];
+}
+
+/// Both at once.
+template <bool Forced, class Real, class Get>
+[[gnu::always_inline]] inline void find_state(const Get& get, const Real (&force)[3], Real& les, CellState<Real>& s) {
+  read_moments(get, s);
+  find_stress<Forced>(force, les, s);
 }
 
 /// Relaxation of the stress: returns 1 - omega. `les` = 18 sqrt2 L^2/rho.
@@ -35,7 +55,7 @@ struct RelaxStress {
 
   template <class Real>
   [[gnu::always_inline]] static inline Real relax(const CollisionConstants& c, const Real& les, CellState<Real>& s) {
-    return constant<Real>(1) - constant<Real>(2) / twice_tau(s.p, c, les);
+    return constant<Real>(1) - constant<Real>(2) * Arithmetic<Real>::inverse(twice_tau(s.p, c, les));
   }
 };
 

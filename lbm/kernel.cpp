@@ -38,26 +38,6 @@ VelocityKernel<double> velocities_double();
 GradientKernel gradients();
 }  // namespace avx512
 
-Isa detect_isa() {
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") &&
-      __builtin_cpu_supports("avx512vl"))
-    return Isa::avx512;
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return Isa::avx2;
-  return Isa::baseline;
-}
-
-const char* name(Isa isa) {
-  switch (isa) {
-    case Isa::avx512:
-      return "avx512";
-    case Isa::avx2:
-      return "avx2";
-    case Isa::baseline:
-      break;
-  }
-  return "baseline";
-}
-
 template <class T>
 Kernel<T> select_kernel(Law law, bool rescale, Isa isa) {
   if constexpr (std::is_same_v<T, float>) {

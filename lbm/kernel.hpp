@@ -28,6 +28,19 @@ struct WallRun {
   std::size_t coefficient = 0;   // first of (number of directions) x count coefficients, direction by direction
 };
 
+/// Wall cells anywhere, alike in the directions of their links and in how these interpolate. Their places: the slots of
+/// the cells; then, direction by direction, the slots beyond the wall and those behind the cells. The last cell is
+/// repeated until the cells fill whole packs: it is given the same values again.
+struct WallGroup {
+  std::int32_t count = 0;        // cells, a multiple of group_unit
+  std::uint32_t directions = 0;  // as in WallRun
+  std::uint32_t far = 0;
+  bool moving = false;
+  std::size_t place = 0;        // first of (1 + 2 x number of directions) x count places
+  std::size_t coefficient = 0;  // first of (number of directions) x count coefficients, direction by direction
+};
+inline constexpr int group_unit = 16;  // lanes of the widest pack
+
 enum class Law { rr3, bgk, trt, central_moments, hrr };
 enum class Parity : std::uint8_t { even, odd };
 enum class Isa { baseline, avx2, avx512 };
@@ -68,7 +81,7 @@ inline constexpr double speed_limit = 0.4;
 template <class T>
 using Kernel = KernelReport (*)(const KernelInput<T>&);
 
-/// Cut links of the walls in runs of equal directions: see links.hpp.
+/// Cut links of the walls in runs and groups of equal directions: see links.hpp, link_schedule.hpp.
 template <class T>
 struct WallInput {
   T* f = nullptr;
@@ -76,10 +89,15 @@ struct WallInput {
   const Run* runs = nullptr;
   const WallRun* walls = nullptr;
   std::size_t first = 0, last = 0;  // [first, last) of walls
-  Parity parity = Parity::even;     // of the collision that has just been done
   const float* partner = nullptr;   // weight of the second population in the interpolation
   const float* moving = nullptr;    // or null
-  double wall_speed = 0.0;          // multiplies `moving` [lattice units]
+  const WallGroup* groups = nullptr;
+  std::size_t first_group = 0, last_group = 0;
+  const std::int32_t* places = nullptr;  // and coefficients, of groups
+  const float* group_partner = nullptr;
+  const float* group_moving = nullptr;
+  Parity parity = Parity::even;  // of the collision that has just been done
+  double wall_speed = 0.0;       // multiplies `moving` [lattice units]
 };
 template <class T>
 using WallKernel = void (*)(const WallInput<T>&);

@@ -2,6 +2,8 @@
 // Only raw memory is touched here and nothing but templates over this unit's own SIMD pack is instantiated, so code
 // compiled for a newer processor cannot leak into the rest of the program.
 
+#include <immintrin.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -26,6 +28,13 @@ inline Pack<T> load_float(const float* p) {
   return v;
 }
 
+/// Whether a masked load or store costs no more than a plain one.
+#ifdef __AVX512F__
+constexpr bool masked = true;
+#else
+constexpr bool masked = false;
+#endif
+
 /// Minimum and maximum as the processor does them: the second operand where either is not a number.
 template <class P>
 [[gnu::always_inline]] inline P minimum(const P& a, const P& b) {
@@ -39,6 +48,7 @@ template <class P>
 // The parts of this unit, in this namespace.
 #include "lbm/kernel_fluxes.inc.hpp"
 #include "lbm/kernel_gradients.inc.hpp"
+#include "lbm/kernel_pack.inc.hpp"
 #include "lbm/kernel_sweep.inc.hpp"
 #include "lbm/kernel_walls.inc.hpp"
 

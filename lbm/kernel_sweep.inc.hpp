@@ -1,280 +1,174 @@
-// Collision and streaming, part of a kernel unit (kernel_isa.inc.hpp): batches of packs of cells.
+// Collision and streaming of the runs of a chunk, part of a kernel unit (kernel_isa.inc.hpp). Packs are taken from the
+// runs in order and treated in batches: all of a batch are read, then all relaxed, then all written, so that the square
+// roots and divisions of one pack do not wait for those of another (docs/decisions/0004-batches-of-packs.md). A batch
+// may span several runs, so short rows do not wait either. While one batch is computed the populations of the next are
+// fetched, a few at a time between the computations: all at once they would only move the waiting to another place
+// (docs/decisions/0005-where-the-air-waited.md).
 
-/// The rare path of the positivity limiter: scales the stress down, cell by cell, until no population falls below
-/// w_i/10; to zero where the equilibrium itself does.
-template <class L, bool Forced, class P>
-[[gnu::noinline, gnu::cold]] void limit_stress(const P (&force)[3], CellState<P>& state) {
-  using T = typename P::value_type;
-  P full[19], none[19];
-  L::template assemble<Forced>(state, force, [&](auto i, const P& v) { full[i] = v; });
-  CellState<P> bare = state;
-  for (auto& p : bare.p) p = P(T(0));
-  L::template assemble<Forced>(bare, force, [&](auto i, const P& v) { none[i] = v; });
-  P scale(T(1));
-  for (int i = 0; i < 19; ++i) {
-    const P floor(T(-0.9 * d3q19::weight[i]));
-    const P room = none[i] - floor, drop = none[i] - full[i];
-    P s = room / stdx::max(drop, P(T(1e-30)));
-    where(!(full[i] < floor), s) = P(T(1));
-    where(s < P(T(0)), s) = P(T(0));
-    scale = stdx::min(scale, s);
-  }
-  for (auto& p : state.p) p = p * scale;
-}
-
-/// What the packs of a sweep saw.
-template <class P>
-struct Seen {
-  P max_speed2{0}, min_drho{0}, max_drho{0}, not_a_number{0};
-  std::int64_t limited = 0;
-};
-
-/// How a pack lies in its run: whole; over cells that the pack before it does (lanes below `skip`); or beyond the end
-/// of a run shorter than a pack, where the lanes from `count` on belong to others, perhaps to another thread.
-enum class Fit { whole, overlapping, short_run };
-
-/// Where a run is read and written. Direction i of its first cell is found at from[i]: in its own slots before an even
-/// step, in those of its neighbours before an odd one. What leaves in direction i goes where the opposite one was
-/// found.
-template <class T>
-struct RunPlaces {
-  T* from[19];
-};
-
-/// One pack of cells: [n + skip, n + end) of a run.
-template <class T>
-struct Place {
-  T* const* from;
-  std::ptrdiff_t slot;  // of lane 0
-  int n, skip, end;
-  Fit fit;
-  std::uint8_t flags;
-};
-
-/// Packs are taken from the runs in order and treated in batches: all of a batch are read, then all relaxed, then all
-/// written. A batch may span several runs, so short rows do not wait for the square roots of their few cells.
 template <class T, class L, bool Forced>
 class Batch {
  public:
   using P = Pack<T>;
-  using Mask = typename P::mask_type;
   static constexpr int width = static_cast<int>(P::size());
 
-  explicit Batch(const KernelInput<T>& in) : in_(in), constants_(in.constants) {
-    for (int i = 0; i < 19; ++i) {
-      const int o = d3q19::opposite(i);
-      base_[i] = in.parity == Parity::even ? in.f + i * in.stride : in.f + o * in.stride + d3q19::velocity[o][0];
-    }
-  }
+  explicit Batch(const KernelInput<T>& in) : work_(in) {}
 
   void add(const Run& run, std::uint8_t flags, Seen<P>& seen) {
-    T** from = runs_[run_count_++].from;
-    if (in_.parity == Parity::even) {
-      for (int i = 0; i < 19; ++i) from[i] = base_[i] + run.first;
-    } else {
-      for (int i = 0; i < 19; ++i) {
-        const auto& c = d3q19::velocity[d3q19::opposite(i)];
-        from[i] = base_[i] + run.first + run.shift[c[1] + 1][c[2] + 1];
-      }
-    }
+    Places* places = &next_->runs[next_->run_count++];
+    work_.find_places(run, places->from);
     int n = 0;
-    for (; n + width <= run.count; n += width) {
-      place_[count_++] = {from, run.first + n, n, 0, width, Fit::whole, flags};
-      if (count_ == size) flush_keeping(from, seen);
-    }
-    if (n < run.count) {
-      if (n > 0)
-        place_[count_++] = {
-            from, run.first + run.count - width, run.count - width, width - (run.count - n), width, Fit::overlapping,
-            flags};
-      else
-        place_[count_++] = {from, run.first, 0, 0, run.count, Fit::short_run, flags};
-      if (count_ == size) flush(seen);
+    for (; n + width <= run.count; n += width)
+      put({places->from, run.first + n, n, 0, width, Fit::whole, flags}, places, seen);
+    if (n == run.count) return;
+    const int left = run.count - n;
+    if (!masked && n > 0) {
+      put({places->from, run.first + run.count - width, run.count - width, width - left, width, Fit::overlapping,
+           flags},
+          places, seen);
+    } else if (joins && flags == 0 && pending_.end > 0 && pending_.end + left <= width) {
+      Place<T> both{places->from, run.first + n, n, 0, left, Fit::joined, flags};
+      next_->others[next_->count] = pending_places_;
+      both.other = next_->others[next_->count].from;
+      both.slot_other = pending_.slot - left;
+      both.n_other = pending_.n - left;
+      both.end_other = left + pending_.end;
+      pending_.end = 0;
+      put(both, places, seen);
+    } else if (joins && flags == 0 && pending_.end == 0 && 2 * left <= width) {
+      pending_places_ = *places;
+      pending_ = {nullptr, run.first + n, n, 0, left, Fit::beyond_end, flags};
+    } else {
+      put({places->from, run.first + n, n, 0, left, Fit::beyond_end, flags}, places, seen);
     }
   }
 
   void flush(Seen<P>& seen) {
-    treat(seen);
-    count_ = 0;
-    run_count_ = 0;
+    if (pending_.end > 0) {
+      next_->others[next_->count] = pending_places_;
+      pending_.from = next_->others[next_->count].from;
+      Places* places = &pending_places_;
+      put(pending_, places, seen);
+      pending_.end = 0;
+    }
+    treat(*now_, *next_, seen);
+    treat(*next_, Packs(), seen);
+    now_->count = now_->run_count = next_->count = next_->run_count = 0;
   }
 
  private:
-  static constexpr int size = 8;  // packs; their states stay in the first-level cache
+  static constexpr bool joins = masked && !Forced;
+  static constexpr int size = masked ? 4 : 8;  // packs; their states stay in the first-level cache
+  struct Places {
+    T* from[19];
+  };
+  /// The packs of a batch, and the places of the runs that they lie in.
+  struct Packs {
+    Places runs[size + 1];
+    Places others[size];  // of runs whose end is joined to that of another
+    Place<T> place[size];
+    int run_count = 0, count = 0;
+  };
 
-  /// Within a run: its places move to the front.
-  void flush_keeping(T**& from, Seen<P>& seen) {
-    flush(seen);
-    T** const first = runs_[run_count_++].from;
-    if (first != from) std::copy(from, from + 19, first);
-    from = first;
-  }
-
-  [[gnu::always_inline]] static Mask lanes(const Place<T>& p) {
-    const P lane([](auto l) { return static_cast<T>(static_cast<int>(l)); });
-    return lane >= P(T(p.skip)) && lane < P(T(p.end));
-  }
-  template <Fit fit>
-  [[gnu::always_inline]] static P read(const Place<T>& p, int i, const Mask& mine) {
-    if constexpr (fit == Fit::short_run) {
-      P v(T(0));
-      where(mine, v).copy_from(p.from[i] + p.n, stdx::element_aligned);
-      return v;
-    } else {
-      return P(p.from[i] + p.n, stdx::element_aligned);
-    }
-  }
-  template <Fit fit>
-  [[gnu::always_inline]] static void write(const Place<T>& p, int i, const Mask& mine, const P& v) {
-    T* const to = p.from[d3q19::opposite(i)] + p.n;
-    if constexpr (fit == Fit::whole) v.copy_to(to, stdx::element_aligned);
-    if constexpr (fit == Fit::short_run) where(mine, v).copy_to(to, stdx::element_aligned);
-    if constexpr (fit == Fit::overlapping) {  // cheaper than a masked store, and all lanes are this run's own
-      P kept(to, stdx::element_aligned);
-      where(mine, kept) = v;
-      kept.copy_to(to, stdx::element_aligned);
-    }
-  }
-  [[gnu::always_inline]] void force_at(const Place<T>& p, double factor, P (&force)[3]) const {
-    for (int d = 0; d < 3; ++d) {
-      force[d] = P(T(0));
-      if constexpr (Forced) {
-        force[d] = P(T(in_.uniform_force[d]));
-        if (p.flags & run_forced) force[d] = force[d] + load_float<T>(in_.force[d] + p.slot);
-        force[d] = force[d] * P(T(factor));
-      }
-    }
+  [[gnu::always_inline]] void put(const Place<T>& place, Places*& places, Seen<P>& seen) {
+    next_->place[next_->count++] = place;
+    if (next_->count < size) return;
+    treat(*now_, *next_, seen);
+    std::swap(now_, next_);
+    next_->count = 0;
+    next_->run_count = 1;
+    next_->runs[0] = *places;  // the run may go on
+    places = &next_->runs[0];
   }
 
-  void treat(Seen<P>& seen) {
+  /// Asks for directions [First, Last) of a pack of the next batch.
+  template <int First, int Last>
+  [[gnu::always_inline]] static void fetch(const Packs& next, int k) {
+    if (k >= next.count) return;
+    const Place<T>& p = next.place[k];
+#pragma GCC unroll 19
+    for (int i = First; i < Last; ++i) __builtin_prefetch(p.from[i] + p.n, 1, 3);
+    if (!joins || p.fit != Fit::joined) return;
+#pragma GCC unroll 19
+    for (int i = First; i < Last; ++i) __builtin_prefetch(p.other[i] + p.n_other + p.end, 1, 3);
+  }
+
+  void treat(const Packs& packs, const Packs& next, Seen<P>& seen) {
+    const int count = packs.count;
+    const Place<T>* const place = packs.place;
     if constexpr (requires { &L::template relax<P>; }) {
-      for (int k = 0; k < count_; ++k) {
-        if (place_[k].fit == Fit::short_run) [[unlikely]]
-          gather_short(place_[k], factor_[k], state_[k]);
+      for (int k = 0; k < count; ++k) {
+        if (joins && place[k].fit == Fit::joined)
+          read_tail<Fit::joined>(place[k], state_[k]);
+        else if (place[k].fit == Fit::beyond_end)
+          read_tail<Fit::beyond_end>(place[k], state_[k]);
         else
-          gather<Fit::whole>(place_[k], factor_[k], state_[k]);
+          work_.template read<Fit::whole>(place[k], state_[k]);
       }
-      for (int k = 0; k < count_; ++k) factor_[k] = L::relax(constants_, factor_[k], state_[k]);
+      for (int k = 0; k < count; ++k) {
+        fetch<0, 6>(next, k);
+        work_.stress(place[k], factor_[k], state_[k]);
+      }
+      for (int k = 0; k < count; ++k) {
+        fetch<6, 10>(next, k);
+        factor_[k] = work_.relax(factor_[k], state_[k]);
+      }
       // Overlapping packs first: they keep lanes by loading them, and loads would wait for stores still on their way.
-      for (int k = 0; k < count_; ++k)
-        if (place_[k].fit == Fit::overlapping) finish<Fit::overlapping>(place_[k], state_[k], factor_[k], seen);
-      for (int k = 0; k < count_; ++k) {
-        if (place_[k].fit == Fit::whole) finish<Fit::whole>(place_[k], state_[k], factor_[k], seen);
-        if (place_[k].fit == Fit::short_run) finish_short(place_[k], state_[k], factor_[k], seen);
+      for (int k = 0; k < count && !masked; ++k)
+        if (place[k].fit == Fit::overlapping)
+          work_.template finish<Fit::overlapping>(place[k], state_[k], factor_[k], seen);
+      for (int k = 0; k < count; ++k) {
+        fetch<10, 19>(next, k);
+        if (place[k].fit == Fit::whole) work_.template finish<Fit::whole>(place[k], state_[k], factor_[k], seen);
+        if (place[k].fit == Fit::beyond_end) finish_tail<Fit::beyond_end>(place[k], state_[k], factor_[k], seen);
+        if (joins && place[k].fit == Fit::joined) finish_tail<Fit::joined>(place[k], state_[k], factor_[k], seen);
       }
     } else {
-      for (int k = 0; k < count_; ++k) {
-        if (place_[k].fit == Fit::whole) collide<Fit::whole>(place_[k], seen);
-        if (place_[k].fit == Fit::short_run) collide<Fit::short_run>(place_[k], seen);
+      for (int k = 0; k < count; ++k) {
+        fetch<0, 19>(next, k);
+        if (place[k].fit == Fit::whole) work_.template collide<Fit::whole>(place[k], seen);
+        if (place[k].fit == Fit::beyond_end) work_.template collide<Fit::beyond_end>(place[k], seen);
+        if (joins && place[k].fit == Fit::joined) work_.template collide<Fit::joined>(place[k], seen);
       }
-      for (int k = 0; k < count_; ++k)
-        if (place_[k].fit == Fit::overlapping) collide<Fit::overlapping>(place_[k], seen);
+      for (int k = 0; k < count && !masked; ++k)
+        if (place[k].fit == Fit::overlapping) work_.template collide<Fit::overlapping>(place[k], seen);
     }
   }
 
   template <Fit fit>
-  [[gnu::always_inline]] void gather(const Place<T>& p, P& les, CellState<P>& state) const {
-    const Mask mine = fit == Fit::short_run ? lanes(p) : Mask(true);
-    P force[3];
-    force_at(p, L::old_force(constants_), force);
-    les = load_float<T>(in_.les + p.slot);
-    find_state<Forced>(
-        [&](auto i) __attribute__((always_inline)) { return read<fit>(p, i, mine); }, force, les, state);
-    if constexpr (requires { &L::template blend<P>; }) {
-      P strain[6];
-      for (int n = 0; n < 6; ++n) strain[n] = load_float<T>(in_.strain[n] + p.slot);
-      L::blend(constants_, les, strain, state);
-    }
-  }
-  [[gnu::noinline]] void gather_short(const Place<T>& p, P& les, CellState<P>& state) const {
-    gather<Fit::short_run>(p, les, state);
+  [[gnu::noinline]] void read_tail(const Place<T>& p, CellState<P>& state) const {
+    work_.template read<fit>(p, state);
   }
   template <Fit fit>
-  [[gnu::always_inline]] void collide(const Place<T>& p, Seen<P>& seen) const {
-    const Mask mine = fit == Fit::whole ? Mask(true) : lanes(p);
-    P force[3];
-    force_at(p, 1.0, force);
-    const P les = load_float<T>(in_.les + p.slot);
-    const auto m = L::template collide<Forced>(
-        [&](auto i) __attribute__((always_inline)) { return read<fit>(p, i, mine); },
-        [&](auto i, const P& v) __attribute__((always_inline)) { write<fit>(p, i, mine, v); }, force, constants_, les);
-    look<fit>(p, m, mine, seen);
-  }
-
-  template <Fit fit>
-  [[gnu::always_inline]] void finish(const Place<T>& p, const CellState<P>& unrelaxed, const P& factor,
+  [[gnu::noinline]] void finish_tail(const Place<T>& p, const CellState<P>& state, const P& factor,
                                      Seen<P>& seen) const {
-    const Mask mine = fit == Fit::whole ? Mask(true) : lanes(p);
-    CellState<P> s = unrelaxed;
-    for (auto& n : s.p) n = n * factor;
-    P force[3];
-    force_at(p, 1.0, force);
-    // Positivity, f_i >= w_i/10: the smallest g_i over axes and over diagonals decides. The populations are stored at
-    // once; in the rare case they are made again from the state, which is still here.
-    P rest, axis, diagonal;
-    L::template assemble<Forced>(
-        s, force, [&](auto i, const P& v) __attribute__((always_inline)) {
-          write<fit>(p, i, mine, v);
-          if constexpr (i == 0) rest = v;
-          if constexpr (i == 1) axis = v;
-          if constexpr (i == 7) diagonal = v;
-          if constexpr (i > 1 && i < 7) axis = minimum(axis, v);
-          if constexpr (i > 7) diagonal = minimum(diagonal, v);
-        });
-    const P lowest = minimum(minimum(rest * P(T(3)), axis * P(T(18))), diagonal * P(T(36)));
-    Mask negative = lowest < P(T(-0.9));
-    if constexpr (fit != Fit::whole) negative = negative && mine;
-    if (stdx::any_of(negative)) [[unlikely]]
-      seen.limited += write_limited<fit>(p, unrelaxed, factor, negative);
-    look<fit>(p, CellMoments<P>{s.drho, s.u[0], s.u[1], s.u[2]}, mine, seen);
-  }
-  template <Fit fit>
-  [[gnu::noinline, gnu::cold]] int write_limited(const Place<T>& p, const CellState<P>& unrelaxed, const P& factor,
-                                                 const Mask& negative) const {
-    CellState<P> s = unrelaxed;
-    for (auto& n : s.p) n = n * factor;
-    P force[3];
-    force_at(p, 1.0, force);
-    limit_stress<L, Forced>(force, s);
-    const Mask mine = lanes(p);
-    L::template assemble<Forced>(s, force, [&](auto i, const P& v) { write<fit>(p, i, mine, v); });
-    return stdx::popcount(negative);
-  }
-  [[gnu::noinline]] void finish_short(const Place<T>& p, const CellState<P>& state, const P& factor,
-                                      Seen<P>& seen) const {
-    finish<Fit::short_run>(p, state, factor, seen);
+    work_.template finish<fit>(p, state, factor, seen);
   }
 
-  template <Fit fit>
-  [[gnu::always_inline]] void look(const Place<T>& p, CellMoments<P> m, const Mask& mine, Seen<P>& seen) const {
-    if constexpr (fit != Fit::whole)
-      for (P* v : {&m.density_excess, &m.ux, &m.uy, &m.uz}) where(!mine, *v) = P(T(0));
-    const P speed2 = m.ux * m.ux + m.uy * m.uy + m.uz * m.uz;
-    seen.max_speed2 = maximum(speed2, seen.max_speed2);
-    seen.min_drho = minimum(m.density_excess, seen.min_drho);
-    seen.max_drho = maximum(m.density_excess, seen.max_drho);
-    seen.not_a_number = seen.not_a_number + speed2;  // a sum forgets no NaN, a maximum does
-    if (!(p.flags & run_moments)) return;
-    const P* value[4] = {&m.density_excess, &m.ux, &m.uy, &m.uz};
-    alignas(stdx::memory_alignment_v<P>) T buffer[width];
-    for (int k = 0; k < 4; ++k) {
-      value[k]->copy_to(buffer, stdx::vector_aligned);
-      for (int l = p.skip; l < p.end; ++l) in_.moments[k][p.slot + l] = static_cast<float>(buffer[l]);
-    }
-  }
-
-  const KernelInput<T>& in_;
-  const CollisionConstants constants_;
-  T* base_[19];  // where direction i of slot 0 would be found, less the shift of its row
-  RunPlaces<T> runs_[size + 1];
-  int run_count_ = 0, count_ = 0;
-  Place<T> place_[size];
+  PackWork<T, L, Forced> work_;
+  Packs packs_[2];
+  Packs *now_ = &packs_[0], *next_ = &packs_[1];  // while one is treated the other is gathered, and on its way
+  Places pending_places_;
+  Place<T> pending_{};  // the end of a run that waits for another to join; end = 0: none
   CellState<P> state_[size];
   P factor_[size];
 };
 
+/// Numbers too small for the number format's normal range count as zero while this lives. Ahead of a sound wave the
+/// populations fade to such numbers, each of which costs the processor 150 cycles: a start from rest ran at half speed.
+class FlushToZero {
+ public:
+  FlushToZero() : before_(_mm_getcsr()) { _mm_setcsr(before_ | 0x8040U); }
+  ~FlushToZero() { _mm_setcsr(before_); }
+  FlushToZero(const FlushToZero&) = delete;
+  FlushToZero& operator=(const FlushToZero&) = delete;
+
+ private:
+  unsigned before_;
+};
+
 template <class T, class L>
 KernelReport sweep(const KernelInput<T>& in) {
+  const FlushToZero flush;
   Seen<Pack<T>> seen;
   Batch<T, L, true> forced(in);
   Batch<T, L, false> free(in);

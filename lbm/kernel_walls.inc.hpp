@@ -8,7 +8,7 @@ struct WallLinks {
   const float* weight[18];  // of the partner
   const float* moving[18];
   T* back[18];  // where the reflected population goes
-  T share[18];  // of the imbalance: w_i over the sum
+  T* rest;      // population at rest: takes the imbalance
   int count = 0;
 };
 
@@ -20,7 +20,7 @@ template <class T>
     return c[0] + run.shift[c[1] + 1][c[2] + 1];
   };
   links.count = 0;
-  T sum = 0;
+  links.rest = in.f + wall.first;
   for (std::uint32_t bits = wall.directions; bits != 0; bits &= bits - 1) {
     const int i = __builtin_ctz(bits), o = d3q19::opposite(i), k = links.count++;
     T* const f_i = in.f + i * in.stride + wall.first;
@@ -34,11 +34,7 @@ template <class T>
     const std::size_t at = wall.coefficient + static_cast<std::size_t>(k) * wall.count;
     links.weight[k] = in.partner + at;
     links.moving[k] = wall.moving ? in.moving + at : nullptr;
-    links.share[k] = T(i < 7 ? 2 : 1);
-    sum += links.share[k];
   }
-  const T each = T(1) / sum;
-  for (int k = 0; k < links.count; ++k) links.share[k] *= each;
 }
 
 /// Reflection for the cells of one pack (or one cell: V = T) from cell n of the wall run on.
@@ -52,21 +48,89 @@ template <class V, class T>
     else
       return load_float<T>(p + n);
   };
-  V incoming[18];
+  const auto store = [n](const V& v, T* p) __attribute__((always_inline)) {
+    if constexpr (std::is_same_v<V, T>)
+      p[n] = v;
+    else
+      v.copy_to(p + n, stdx::element_aligned);
+  };
   V imbalance = constant<V>(0);
   for (int k = 0; k < links.count; ++k) {
     const V out = load(links.out[k]);
     V change = load(links.weight[k]) * (load(links.partner[k]) - out);
     if (moving) change = change + V(speed) * load(links.moving[k]);
-    incoming[k] = out + change;
     imbalance = imbalance - change;
+    store(out + change, links.back[k]);
   }
-  for (int k = 0; k < links.count; ++k) {
-    const V f = incoming[k] + V(links.share[k]) * imbalance;
-    if constexpr (std::is_same_v<V, T>)
-      links.back[k][n] = f;
-    else
-      f.copy_to(links.back[k] + n, stdx::element_aligned);
+  store(load(links.rest) + imbalance, links.rest);
+}
+
+/// Values at scattered places, and back.
+template <class T>
+[[gnu::always_inline]] inline Pack<T> gather(const T* base, const std::int32_t* at) {
+#ifdef __AVX512F__
+  if constexpr (std::is_same_v<T, float>)
+    return Pack<T>(_mm512_i32gather_ps(_mm512_loadu_si512(at), base, sizeof(T)));
+  else
+    return Pack<T>(_mm512_i32gather_pd(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(at)), base, sizeof(T)));
+#else
+  return Pack<T>([ base, at ](auto l) __attribute__((always_inline)) { return base[at[l]]; });
+#endif
+}
+template <class T>
+[[gnu::always_inline]] inline void scatter(const Pack<T>& v, T* base, const std::int32_t* at) {
+#ifdef __AVX512F__
+  if constexpr (std::is_same_v<T, float>)
+    _mm512_i32scatter_ps(base, _mm512_loadu_si512(at), static_cast<__m512>(v), sizeof(T));
+  else
+    _mm512_i32scatter_pd(base, _mm256_loadu_si256(reinterpret_cast<const __m256i*>(at)), static_cast<__m512d>(v),
+                         sizeof(T));
+#else
+  for (std::size_t l = 0; l < Pack<T>::size(); ++l) base[at[l]] = v[l];
+#endif
+}
+
+/// Reflection for the cells of a group.
+template <class T>
+void reflect_group(const WallInput<T>& in, const WallGroup& group) {
+  using P = Pack<T>;
+  struct Link {
+    const T *out, *partner;
+    T* back;
+    const std::int32_t *out_at, *partner_at, *back_at;
+    P share;
+  };
+  Link link[18];
+  const int count = group.count;
+  const bool even = in.parity == Parity::even;
+  const std::int32_t* const slot = in.places + group.place;
+  int links = 0;
+  T sum = 0;
+  for (std::uint32_t bits = group.directions; bits != 0; bits &= bits - 1, ++links) {
+    const int i = __builtin_ctz(bits), o = d3q19::opposite(i);
+    T* const f_i = in.f + i * in.stride;
+    T* const f_o = in.f + o * in.stride;
+    const std::int32_t *const beyond = slot + (1 + 2 * links) * count, *const behind = beyond + count;
+    // Places as in find_links.
+    const bool own = ((group.far >> i & 1U) != 0) == even;
+    const T part = T(i < 7 ? 2 : 1);
+    link[links] = {even ? f_o : f_i,    own ? f_i : f_o,      even ? f_i : f_o, even ? slot : beyond,
+                   own ? slot : behind, even ? beyond : slot, P(part)};
+    sum += part;
+  }
+  const P each(T(1) / sum), speed(static_cast<T>(in.wall_speed));
+  for (int n = 0; n < count; n += static_cast<int>(P::size())) {
+    P incoming[18], imbalance(T(0));
+    const float* partner = in.group_partner + group.coefficient + n;
+    for (int k = 0; k < links; ++k) {
+      const P out = gather(link[k].out, link[k].out_at + n);
+      P change = load_float<T>(partner + k * count) * (gather(link[k].partner, link[k].partner_at + n) - out);
+      if (group.moving) change = change + speed * load_float<T>(in.group_moving + group.coefficient + n + k * count);
+      incoming[k] = out + change;
+      imbalance = imbalance - change;
+    }
+    imbalance = imbalance * each;
+    for (int k = 0; k < links; ++k) scatter(incoming[k] + link[k].share * imbalance, link[k].back, link[k].back_at + n);
   }
 }
 
@@ -79,11 +143,9 @@ void walls(const WallInput<T>& in) {
   for (std::size_t w = in.first; w < in.last; ++w) {
     const WallRun& wall = in.walls[w];
     find_links(in, wall, links);
-    if (wall.count < width) {
-      for (int n = 0; n < wall.count; ++n) reflect<T>(links, wall.moving, speed, n);
-      continue;
-    }
-    // The last pack overlaps the one before it: what it reads has not been written, so the result is the same.
-    for (int n = 0; n < wall.count; n += width) reflect<P>(links, wall.moving, speed, std::min(n, wall.count - width));
+    int n = 0;
+    for (; n + width <= wall.count; n += width) reflect<P>(links, wall.moving, speed, n);
+    for (; n < wall.count; ++n) reflect<T>(links, wall.moving, speed, n);
   }
+  for (std::size_t g = in.first_group; g < in.last_group; ++g) reflect_group(in, in.groups[g]);
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "lbm/link_schedule.hpp"
 #include "lbm/populations.hpp"
 #include "lbm/slip.hpp"
 #include "lbm/wall_sides.hpp"
@@ -261,22 +262,6 @@ Links build_links(const Rows& rows, const LinkGeometry& surface, WallScheme sche
       }
     }
   }
-  // Parts of about 512 wall cells.
-  links.wall_chunks.push_back(0);
-  int cells = 0;
-  for (std::size_t w = 0; w < links.walls.size(); ++w) {
-    cells += links.walls[w].count;
-    if (cells >= 512 || w + 1 == links.walls.size()) {
-      links.wall_chunks.push_back(w + 1);
-      cells = 0;
-    }
-  }
-
-  links.outlet_chunks.push_back(0);
-  for (std::size_t k = 1; k <= links.outlets.size(); ++k)
-    if (k == links.outlets.size() ||
-        (k - links.outlet_chunks.back() >= 256 && links.outlets[k].slot != links.outlets[k - 1].slot))
-      links.outlet_chunks.push_back(k);
 
   // Inlets: the mean speed over the cells of the opening is the one asked for. On a grid that does not fit the opening
   // the cells cover a slightly different area; keeping the speed keeps the dynamic head, to which the pressure drop is
@@ -316,6 +301,7 @@ Links build_links(const Rows& rows, const LinkGeometry& surface, WallScheme sche
   }
 
   join_slip_links(rows, links.slip);
+  links.schedule = std::make_shared<const LinkSchedule>(schedule_links(rows, links));
 
   for (const auto& [ghost, active] : rows.periodic_images()) {
     const auto g = rows.cell(ghost);

@@ -7,7 +7,8 @@
 //   q <  1/2:  f_in = 2q f_out + (1-2q) f_out(x - c)        q >= 1/2:  f_in = f_out/(2q) + (1 - 1/(2q)) f_own,
 // f_own the post-collision population of the cell in the returning direction.
 // Source: Bouzidi, Firdaouss & Lallemand, Phys. Fluids 13, 3452 (2001). Each cell's mass imbalance over its cut links
-// is returned over them in proportion to the lattice weights, so that the air's mass is conserved to round-off.
+// goes into its population at rest, so that the air's mass is conserved to round-off and no momentum is added (given
+// back over the links it displaced inclined walls twice as far: docs/decisions/0007-walls.md).
 // Half-way bounce-back is the same with q = 1/2 everywhere.
 
 #include <cstdint>
@@ -63,14 +64,15 @@ struct SlipLink {
   std::int16_t patch = 0;
 };
 
+struct LinkSchedule;
+
 struct Links {
-  std::vector<WallRun> walls;                // in the order of the rows
-  std::vector<std::size_t> wall_chunks;      // boundaries of the parts given to threads
-  std::vector<float> partner;                // weight of f_own (far) or f_out(x-c); that of f_out is 1 - partner
-  std::vector<float> moving;                 // population gained for a unit wall speed; empty when no wall moves
-  std::vector<std::int16_t> wall_patch;      // per coefficient
-  std::vector<OpeningLink> inlets, outlets;  // sorted by slot
-  std::vector<std::size_t> outlet_chunks;    // boundaries of the parts given to threads; no cell is divided
+  std::vector<WallRun> walls;                    // in the order of the rows
+  std::vector<float> partner;                    // weight of f_own (far) or f_out(x-c); that of f_out is 1 - partner
+  std::vector<float> moving;                     // population gained for a unit wall speed; empty when no wall moves
+  std::vector<std::int16_t> wall_patch;          // per coefficient
+  std::vector<OpeningLink> inlets, outlets;      // sorted by slot
+  std::shared_ptr<const LinkSchedule> schedule;  // when walls, inlets and outlets are applied
   /// Links between two active cells with a wall between them (thinner than a cell); never in `walls`.
   struct ThinLink {
     std::ptrdiff_t slot = 0;

@@ -1,11 +1,13 @@
 #pragma once
 // The populations of one air: 19 arrays over the slots of Rows, updated in place (AA pattern, see kernel.hpp).
 
-#include <oneapi/tbb/cache_aligned_allocator.h>
+#include <oneapi/tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
+#include "lbm/huge_pages.hpp"
 #include "lbm/kernel.hpp"
 #include "lbm/rows.hpp"
 
@@ -19,7 +21,7 @@ inline std::ptrdiff_t neighbour_offset(const Run& run, int i) {
 
 template <class T>
 struct Populations {
-  std::vector<T, oneapi::tbb::cache_aligned_allocator<T>> f;  // shifted populations g_i = f_i - w_i, [19][stride]
+  std::vector<T, HugePages<T>> f;  // shifted populations g_i = f_i - w_i, [19][stride]
   std::size_t stride = 0;
   Parity next = Parity::even;  // kind of the step to come
 
@@ -29,7 +31,18 @@ struct Populations {
     std::size_t lines = (slots * sizeof(T) + 63) / 64;
     while (lines % 64 != 5) ++lines;
     stride = lines * 64 / sizeof(T);
-    f.assign(19 * stride, T(0));
+    f.resize(19 * stride);
+    // Each part is first written by the thread that will work on it, and so lies in that thread's memory.
+    constexpr std::size_t parts = 64;
+    oneapi::tbb::parallel_for(
+        std::size_t{0}, parts,
+        [&](std::size_t k) {
+          for (std::size_t i = 0; i < 19; ++i) {
+            T* const direction = f.data() + i * stride;
+            std::fill(direction + stride * k / parts, direction + stride * (k + 1) / parts, T(0));
+          }
+        },
+        oneapi::tbb::static_partitioner());
   }
   /// The population in direction i that has arrived at an active slot of `run`, before its next collision.
   const T& arrived(const Run& run, std::ptrdiff_t slot, int i) const { return f[place(run, slot, i)]; }

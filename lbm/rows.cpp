@@ -48,9 +48,13 @@ Rows::Rows(const geometry::Voxels& voxels, std::array<bool, 3> periodic)
         }
         int end = i;
         while (end <= nx && mark[at(end, j, k)] != Kind::padding) ++end;
+        // The first active cell lies on a vector boundary (in rows of ghosts alone the second cell: it is beside one).
+        int lead = 0;
+        while (lead < end - i && mark[at(i + lead, j, k)] != Kind::active) ++lead;
+        if (lead == end - i) lead = 1;
+        next += (padding - (next + lead) % padding) % padding;
         stretches_.push_back({i, end - i, next});
-        next += end - i;
-        next += padding - next % padding;  // the following stretch starts on a vector boundary, never adjacent to this
+        next += end - i + 1;  // never adjacent to the following stretch
         i = end;
       }
     }
@@ -91,8 +95,9 @@ Rows::Rows(const geometry::Voxels& voxels, std::array<bool, 3> periodic)
     if (image >= 0) images_.push_back({static_cast<std::ptrdiff_t>(s), image});
   }
 
-  // Chunks of about equal work. Their number depends on the number of cells alone.
-  const std::size_t wanted = std::clamp<std::size_t>(active_ / 4096, 1, 256);
+  // Chunks of about equal work, whose populations fit into the second-level cache. Their number depends on the number
+  // of cells alone.
+  const std::size_t wanted = std::max<std::size_t>(active_ / 4096, 1);
   const std::size_t per_chunk = (active_ + wanted - 1) / wanted;
   std::size_t filled = 0;
   int begin = 0;

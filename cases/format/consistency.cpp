@@ -155,9 +155,12 @@ class Checks {
     if (c.fill)
       if (const auto* patch = std::get_if<std::string>(&c.fill->at)) known_patch("carriers.fill.at", *patch);
     adhesion("carriers.adhesion", c.adhesion);
-    adhesion("carriers.walls.adhesion", c.wall_adhesion);
+    // What the walls take over from the carriers is reported there.
+    if (c.wall_adhesion.hamaker != c.adhesion.hamaker || c.wall_adhesion.surface_energy != c.adhesion.surface_energy)
+      adhesion("carriers.walls.adhesion", c.wall_adhesion);
     elasticity("carriers", c.contact, c.adhesion);
-    elasticity("carriers.walls", c.wall_contact, c.wall_adhesion);
+    if (!findings_.broken("carriers.contact.restitution"))
+      elasticity("carriers.walls", c.wall_contact, c.wall_adhesion);
     if (c.contact.max_overlap > 0.5) say("carriers.contact.max_overlap", "must be at most 0.5 of the radius");
     if (c_.fines && !c_.fines->micromodels.empty() && c.fines_each == 0.0)
       say("carriers.fines_each", "[fines] names micro-models, but the carriers carry no fines: give fines_each");

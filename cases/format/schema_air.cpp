@@ -181,6 +181,19 @@ void describe(Fields& io, Numerics& n, AirModel air) {
   if (n.wall_model && (n.wall == WallScheme::ibm || n.wall == WallScheme::psm))
     io.problem("wall_model", "the wall model acts on cut links: take wall = \"bouzidi\" or \"halfway\" with it");
   io.choice("precision", n.precision, otherwise(Precision::float32));
+  std::int64_t interval = n.coupling_interval;
+  io.integer("coupling_interval", interval, Range::positive, otherwise<std::int64_t>(4));
+  if (interval > 64) io.problem("coupling_interval", "at most 64 air steps between two exchanges");
+  n.coupling_interval = static_cast<int>(interval);
+  io.number("scalar_cfl", n.scalar_cfl, unit::number, Range::positive, otherwise(0.8));
+  if (!(n.scalar_cfl < 1.0)) io.problem("scalar_cfl", "a step of the transport takes less than a cell's air: below 1");
+  io.section("skip", [&](Fields& f) {
+    f.flag("sleeping_carriers", n.skip.sleeping_carriers, otherwise(true));
+    f.flag("resting_exchange", n.skip.resting_exchange, otherwise(true));
+    f.flag("idle_transport", n.skip.idle_transport, otherwise(true));
+    f.flag("empty_cells", n.skip.empty_cells, otherwise(true));
+    f.flag("transport_steps", n.skip.transport_steps, otherwise(true));
+  });
   std::int64_t threads = n.threads;
   io.integer("threads", threads, Range::non_negative, otherwise<std::int64_t>(0));
   if (threads > 4096) io.problem("threads", "at most 4096 threads");

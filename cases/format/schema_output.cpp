@@ -53,6 +53,7 @@ void describe(Fields& io, Line& line, double end) {
   io.integer("points", points, Range::positive, otherwise<std::int64_t>(100));
   if (points < 2 || points > 1'000'000) io.problem("points", "a line has 2 to 1000000 points");
   line.points = static_cast<int>(points);
+  if (io.reading() && line.from == line.to) io.problem("to", "is the place 'from' itself; a line needs a length");
   io.number("average_from", line.average_from, unit::time, Range::non_negative,
             derived(end, "stop.time: the end alone"));
 }

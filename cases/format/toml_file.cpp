@@ -11,6 +11,10 @@ namespace {
 
 constexpr std::uintmax_t longest_file = std::uintmax_t{64} << 20;  // [bytes]
 
+CaseError too_long(const std::filesystem::path& file) {
+  return CaseError({{file.string(), 0, 0, "", "this is no case file: longer than 64 MB"}});
+}
+
 }  // namespace
 
 std::string read_text(const std::filesystem::path& file) {
@@ -18,11 +22,22 @@ std::string read_text(const std::filesystem::path& file) {
   const std::filesystem::file_status status = std::filesystem::status(file, error);
   if (!error && std::filesystem::is_directory(status)) error = std::make_error_code(std::errc::is_a_directory);
   if (!error && std::filesystem::is_regular_file(status) && std::filesystem::file_size(file) > longest_file)
-    throw CaseError({{file.string(), 0, 0, "", "this is no case file: longer than 64 MB"}});
+    throw too_long(file);
   std::ifstream in(file, std::ios::binary);
   if (!error && !in) error = std::make_error_code(std::errc::permission_denied);
   if (error) throw std::system_error(error, "cannot read " + file.string());
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  // Not by its size alone: a pipe or a device has none, and may never end.
+  std::string text;
+  constexpr std::streamsize piece = std::streamsize{1} << 16;
+  for (std::streamsize got = piece; got == piece;) {
+    const std::size_t before = text.size();
+    text.resize(before + static_cast<std::size_t>(piece));
+    in.read(text.data() + before, piece);
+    got = in.gcount();
+    text.resize(before + static_cast<std::size_t>(got));
+    if (text.size() > longest_file) throw too_long(file);
+  }
+  return text;
 }
 
 toml::table parse_toml(std::string_view text, const std::string& file) try {

@@ -6,6 +6,7 @@
 #include "cases/format/toml_fields.hpp"
 #include "cases/format/toml_file.hpp"
 #include "cases/spelling.hpp"
+#include "cases/verification/overrides.hpp"
 #include "cases/verification/verification.hpp"
 
 namespace puffin::cases {
@@ -108,13 +109,7 @@ void describe(Fields& io, VerificationRun& run, const std::filesystem::path& fol
   if (io.has("case", false)) io.file("case", file, {});
   run.case_file = file;
   io.flag("quick", run.quick, otherwise(true));
-  std::vector<std::string> sets;
-  io.texts("set", sets, otherwise(sets));
-  for (const std::string& text : sets) try {
-      run.sets.push_back(parse_override(text));
-    } catch (const std::invalid_argument& e) {
-      io.problem("set", e.what());
-    }
+  run.sets = overrides(io, "set");
   run.constants = constants(io);
 }
 

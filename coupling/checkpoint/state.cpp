@@ -66,17 +66,18 @@ namespace {
 void time_fields(auto& archive, Is<State> auto& state) {
   auto& [time, scale, step_factor, air, drive, inlet_way, cells, touched, carriers, fines, collisions, first_motion,
          departures, events, stencils, stencils_at, spread_on, samples, gradients, spreader, impulse_on_air, momentum,
-         loads, release, scalars, budget, fluxes, routes, steps_since_scalars, seconds_since_scalars,
-         steps_per_scalar_update, airborne, effort, extremes] = state;
-  archive(time, scale.dt, step_factor, inlet_way, collisions, departures, stencils_at.position, stencils_at.radius,
-          impulse_on_air, momentum, steps_since_scalars, seconds_since_scalars, steps_per_scalar_update, airborne,
-          effort, extremes);
+         loads, pores, pressure_forces, release, scalars, budget, fluxes, routes, steps_since_scalars,
+         seconds_since_scalars, steps_per_scalar_update, airborne, effort, extremes] = state;
+  archive(time, scale.dt, step_factor, inlet_way, collisions, departures, pores.share, stencils_at.position,
+          stencils_at.radius, impulse_on_air, momentum, steps_since_scalars, seconds_since_scalars,
+          steps_per_scalar_update, airborne, effort, extremes);
 }
 
-/// The lattice belongs to the case; of the air only what moves.
+/// The lattice belongs to the case; of the air only what moves. What walls keep of their cells they find again from the
+/// populations before each collision.
 void air_fields(auto& archive, auto& air) {
   auto& [rows, links, boundaries, normal, options, populations, moments, force, run_flags, run_of_slot, les, gradients,
-         steps, limited, backflow] = air;
+         fluid, fluid_cells, partial, markers, wall_model, steps, limited, backflow] = air;
   archive(steps, limited, backflow);
   std::visit([&](auto& p) { archive(p.next, p.f); }, populations);
 }
@@ -104,6 +105,7 @@ struct Sizes {
     if (s.fines.slip.seconds.size() != ids * SlipHistory::classes ||
         s.fines.slip.metres.size() != ids * SlipHistory::classes)
       return false;
+    if (!s.pores.share.empty() && s.pores.share.size() != slots) return false;
     if (s.collisions.energy.size() != triangles || s.fines.stuck.size() != triangles) return false;
     if (!s.carriers.carriers.id.empty() && static_cast<std::size_t>(s.carriers.carriers.id.back()) >= ids) return false;
     if (s.stencils_at.position.size() != s.stencils_at.radius.size()) return false;
@@ -131,6 +133,21 @@ void rebuild_stencils(State& s) {
   std::vector<int> all(s.stencils_at.position.size());
   for (std::size_t p = 0; p < all.size(); ++p) all[p] = static_cast<int>(p);
   s.stencils.build(s.cells, s.stencils_at.position, s.stencils_at.radius, all);
+}
+
+/// The shared cells are those whose part of air is not one; what else belongs to them is made anew.
+void rebuild_pores(State& s) {
+  const std::vector<double> share = std::move(s.pores.share);
+  s.pores = lbm::make_pore_space(*s.air);
+  std::vector<std::int32_t> slots;
+  for (std::size_t n = 0; n < share.size(); ++n) {
+    if (share[n] == 1.0) continue;
+    if (s.air->run_of_slot[n] < 0 || !(share[n] > 0.0) || !(share[n] < 1.0))
+      throw CheckpointDamaged("its volume fractions make no sense");
+    slots.push_back(static_cast<std::int32_t>(n));
+  }
+  s.pores.share = share;
+  lbm::set_shared(slots, std::vector<double>(slots.size(), 0.0), *s.air, s.pores);
 }
 
 template <class T>
@@ -174,6 +191,10 @@ void restore(const Checkpoint& checkpoint, State& state) {
   fines(state.fines, state.scalars, state.budget);
   fines.finish();
   if (!sizes.fit(state)) throw CheckpointDamaged("its sections do not fit each other or this case");
+  if (state.pores.share.empty())
+    state.pores = lbm::PoreSpace{};
+  else
+    rebuild_pores(state);
   const auto sound = [](double value) { return value > 0.0 && std::isfinite(value); };
   if (!sound(state.scale.dt) || !sound(state.step_factor) || !(state.time >= 0.0) || !std::isfinite(state.time))
     throw CheckpointDamaged("its time or time step makes no sense");

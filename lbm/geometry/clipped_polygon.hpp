@@ -11,7 +11,8 @@ namespace puffin::lbm::geometry {
 
 /// A convex flat polygon; each of the six planes of a box adds at most one corner to the triangle's three.
 struct ClippedPolygon {
-  std::array<Vec3, 12> corner;
+  static constexpr int most = 12;  // nine, and room for rounding
+  std::array<Vec3, most> corner;
   int corners = 0;
 
   ClippedPolygon() = default;
@@ -29,19 +30,33 @@ struct ClippedPolygon {
 
   /// The part with axis coordinate >= level (above) or <= level.
   ClippedPolygon cut(int axis, double level, bool above) const {
-    ClippedPolygon part;
-    for (int k = 0; k < corners; ++k) {
-      const Vec3 &p = corner[k], &q = corner[(k + 1) % corners];
-      const double dp = above ? p[axis] - level : level - p[axis], dq = above ? q[axis] - level : level - q[axis];
-      if (dp >= 0.0) part.corner[part.corners++] = p;
-      if ((dp > 0.0 && dq < 0.0) || (dp < 0.0 && dq > 0.0)) {
-        Vec3 on = p + dp / (dp - dq) * (q - p);
-        on[axis] = level;
-        part.corner[part.corners++] = on;
-      }
-    }
+    ClippedPolygon part(*this);
+    part.keep([&](const Vec3& p) { return above ? p[axis] - level : level - p[axis]; },
+              [&](Vec3& on) { on[axis] = level; });
     return part;
   }
+
+  /// Keeps the part where `height`, linear in the point, is not negative; `settle` may mend the rounding of new
+  /// corners.
+  template <class Height, class Settle>
+  void keep(Height&& height, Settle&& settle) {
+    const ClippedPolygon whole(*this);
+    corners = 0;
+    for (int k = 0; k < whole.corners && corners + 2 <= most; ++k) {
+      const Vec3 &p = whole.corner[k], &q = whole.corner[(k + 1) % whole.corners];
+      const double hp = height(p), hq = height(q);
+      if (hp >= 0.0) corner[corners++] = p;
+      if ((hp > 0.0 && hq < 0.0) || (hp < 0.0 && hq > 0.0)) {
+        corner[corners] = p + hp / (hp - hq) * (q - p);
+        settle(corner[corners++]);
+      }
+    }
+  }
+  template <class Height>
+  void keep(Height&& height) {
+    keep(height, [](Vec3&) {});
+  }
+
   /// The part with low <= axis coordinate <= high.
   ClippedPolygon slab(int axis, double low, double high) const { return cut(axis, low, true).cut(axis, high, false); }
 

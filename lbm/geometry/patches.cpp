@@ -116,6 +116,38 @@ std::optional<Vec3> parse_point(const std::string& text) {
   return p;
 }
 
+// Triangles connected to the first that are turned less than half a degree from the normal, or lie in the plane through
+// the first with all corners (slivers and facets without area have no normal worth asking).
+std::vector<int> flat_around(const TriangleMesh& mesh, const Adjacency& adjacency, int first, const Vec3& normal) {
+  Vec3 low = mesh.vertices[0], high = low;
+  for (const auto& v : mesh.vertices) {
+    low = low.cwiseMin(v);
+    high = high.cwiseMax(v);
+  }
+  const double tolerance = plane_fraction * (high - low).norm();
+  const Vec3 on = (mesh.corner(first, 0) + mesh.corner(first, 1) + mesh.corner(first, 2)) / 3.0;
+  const auto flat = [&](int t) {
+    const Vec3 n = mesh.area_vector(t);
+    if (n.norm() > 0.0 && n.dot(normal) >= flat_cosine * n.norm()) return true;
+    bool in_plane = true;
+    for (int k = 0; k < 3; ++k) in_plane = in_plane && std::abs(normal.dot(mesh.corner(t, k) - on)) <= tolerance;
+    return in_plane;
+  };
+  std::vector<int> found{first};
+  std::vector<char> taken(mesh.triangles.size(), 0);
+  taken[first] = 1;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    for (int k = 0; k < 3; ++k) {
+      for (const auto& use : adjacency.uses(static_cast<std::size_t>(adjacency.edge(found[i], k)))) {
+        if (taken[use.triangle] || !flat(use.triangle)) continue;
+        taken[use.triangle] = 1;
+        found.push_back(use.triangle);
+      }
+    }
+  }
+  return found;
+}
+
 Outcome select_near(const TriangleMesh& mesh, const Adjacency& adjacency, const std::string& text) {
   const auto point = parse_point(text);
   if (!point) return {{}, "'near:" + text + "' is no point; write near:[x, y, z] with numbers in metres"};
@@ -132,23 +164,12 @@ Outcome select_near(const TriangleMesh& mesh, const Adjacency& adjacency, const 
     }
   }
   if (nearest < 0) return {{}, "every triangle is degenerate"};
-  const Vec3 normal = mesh.area_vector(nearest).normalized();
-  Outcome result;
-  std::vector<char> taken(mesh.triangles.size(), 0);
-  taken[nearest] = 1;
-  result.triangles.push_back(nearest);
-  for (std::size_t i = 0; i < result.triangles.size(); ++i) {
-    for (int k = 0; k < 3; ++k) {
-      for (const auto& use : adjacency.uses(adjacency.edge(result.triangles[i], k))) {
-        if (taken[use.triangle]) continue;
-        const Vec3 n = mesh.area_vector(use.triangle);
-        if (n.dot(normal) < flat_cosine * n.norm()) continue;
-        taken[use.triangle] = 1;
-        result.triangles.push_back(use.triangle);
-      }
-    }
-  }
-  return result;
+  // A sliver's normal is rounding: the plane of what it found is better, and finds the rest.
+  std::vector<int> found = flat_around(mesh, adjacency, nearest, mesh.area_vector(nearest).normalized());
+  Vec3 sum = Vec3::Zero();
+  for (const int t : found) sum += mesh.area_vector(t);
+  if (sum.norm() > 0.0) found = flat_around(mesh, adjacency, nearest, sum.normalized());
+  return {std::move(found), {}};
 }
 
 Outcome select(const TriangleMesh& mesh, const Adjacency& adjacency, const std::string& how) {

@@ -23,7 +23,7 @@ struct Patches {
 
 /// "solid:NAME": the triangles of that solid of the file. "plane:x-min": all triangles that lie in that extreme plane
 /// of the bounding box (corners within 1e-5 of its diagonal). "near:[x,y,z]": the connected coplanar triangles (normals
-/// within half a degree of the first) around the triangle nearest to the point.
+/// within half a degree of the first, or all corners in its plane) around the triangle nearest to the point.
 /// Untagged triangles keep the name of their solid if the file has several, else they are "wall". Selections come first
 /// in `names`, in order.
 /// Throws GeometryError listing every bad selection: unknown solid (with the known ones and the likeliest), bad syntax,

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <optional>
 
-#include "lbm/geometry/triangle_tree.hpp"
+#include "lbm/geometry/clipped_polygon.hpp"
 
 namespace puffin::lbm::geometry {
 
@@ -47,11 +47,39 @@ std::optional<Vec3> cross(const TriangleMesh& m, int s, int t) {
   return std::nullopt;
 }
 
+// A point of the common part of two triangles in one plane that face the same way.
+std::optional<Vec3> overlap(const TriangleMesh& m, int s, int t) {
+  const Vec3 n = m.area_vector(s), o = m.area_vector(t);
+  const double smaller = std::min(n.norm(), o.norm());
+  if (!(n.dot(o) > 0.99 * n.norm() * o.norm()) || !(smaller > 0.0)) return std::nullopt;
+  for (int k = 0; k < 3; ++k)
+    if (volume6(m.corner(s, 0), m.corner(s, 1), m.corner(s, 2), m.corner(t, k)) != 0.0) return std::nullopt;
+  int axis = 0;
+  n.cwiseAbs().maxCoeff(&axis);
+  const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+  const double turn = n[axis] > 0.0 ? 1.0 : -1.0;
+  ClippedPolygon common(m.corner(t, 0), m.corner(t, 1), m.corner(t, 2));
+  for (int k = 0; k < 3 && !common.empty(); ++k) {
+    const Vec3 &a = m.corner(s, k), &b = m.corner(s, (k + 1) % 3);
+    // In coordinates with the edge along one of them, the inner side is where the other is positive.
+    common.keep([&](const Vec3& p) { return turn * ((b[u] - a[u]) * (p[v] - a[v]) - (b[v] - a[v]) * (p[u] - a[u])); });
+  }
+  if (common.empty() || std::abs(common.shadow(axis).first) * n.norm() < 0.5e-6 * smaller * std::abs(n[axis]))
+    return std::nullopt;
+  Vec3 middle = Vec3::Zero();
+  for (int k = 0; k < common.corners; ++k) middle += common.corner[k] / common.corners;
+  return middle;
+}
+
 }  // namespace
 
 std::vector<Intersection> find_self_intersections(const TriangleMesh& mesh) {
   if (mesh.triangles.empty()) return {};
-  const TriangleTree tree(std::shared_ptr<const TriangleMesh>(std::shared_ptr<void>(), &mesh));
+  return find_self_intersections(TriangleTree(std::shared_ptr<const TriangleMesh>(std::shared_ptr<void>(), &mesh)));
+}
+
+std::vector<Intersection> find_self_intersections(const TriangleTree& tree) {
+  const TriangleMesh& mesh = tree.mesh();
   tbb::combinable<std::vector<Intersection>> found;
   const int n = static_cast<int>(mesh.triangles.size());
   tbb::parallel_for(tbb::blocked_range<int>(0, n, 1024), [&](const tbb::blocked_range<int>& r) {
@@ -67,8 +95,10 @@ std::vector<Intersection> find_self_intersections(const TriangleMesh& mesh) {
         for (const int v : mesh.triangles[s]) {
           shared += std::count(mesh.triangles[t].begin(), mesh.triangles[t].end(), v) > 0;
         }
-        if (shared > 1) continue;
-        if (const auto where = cross(mesh, s, t)) mine.push_back({s, t, *where});
+        if (shared > 2) continue;
+        auto where = shared < 2 ? cross(mesh, s, t) : std::nullopt;
+        if (!where) where = overlap(mesh, s, t);
+        if (where) mine.push_back({s, t, *where});
       }
     }
   });

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "lbm/geometry/triangle_mesh.hpp"
+#include "lbm/geometry/triangle_tree.hpp"
 
 namespace puffin::lbm::geometry {
 
@@ -12,8 +12,11 @@ struct Intersection {
   Vec3 where = Vec3::Zero();
 };
 
-/// Pairs of triangles of which an edge of one passes through the interior of the other, sorted by (a, b). Pairs that
-/// share a vertex are tested with the edges that do not touch it. Exactly touching or coplanar pairs do not count.
+/// Pairs of triangles of which an edge of one passes through the interior of the other, or that lie in one plane, face
+/// the same way and overlap by more than a millionth of the smaller; sorted by (a, b). Pairs that share a vertex are
+/// tested with the edges that do not touch it. Pairs that only touch do not count, nor do faces that lie on each other
+/// back to back (the common face of two bodies), nor copies of one triangle (a duplicate facet).
 std::vector<Intersection> find_self_intersections(const TriangleMesh& mesh);
+std::vector<Intersection> find_self_intersections(const TriangleTree& tree);
 
 }  // namespace puffin::lbm::geometry

@@ -7,6 +7,7 @@ set(PUFFIN_GEOMETRY_SOURCES
   geometry/row_crossings.cpp
   geometry/self_intersection.cpp
   geometry/shells.cpp
+  geometry/signed_distance.cpp
   geometry/solid_fraction.cpp
   geometry/stl.cpp
   geometry/stl_text.cpp
@@ -17,6 +18,7 @@ set(PUFFIN_GEOMETRY_SOURCES
   geometry/tree_winding.cpp
   geometry/triangle_tree.cpp
   geometry/union_fraction.cpp
+  geometry/voxel_errors.cpp
   geometry/voxel_report.cpp
   geometry/voxelize.cpp
   geometry/weld.cpp)

@@ -18,14 +18,14 @@ constexpr std::size_t header_bytes = 80, start_bytes = 84, triangle_bytes = 50;
 
 std::string read_file(const std::string& path) {
   std::error_code error;
-  if (!std::filesystem::exists(path, error)) throw StlError(path + ": error: no such file; check the path");
-  if (!std::filesystem::is_regular_file(path, error)) throw StlError(path + ": error: not a regular file");
+  if (!std::filesystem::exists(path, error)) throw StlFileError(path + ": error: no such file; check the path");
+  if (!std::filesystem::is_regular_file(path, error)) throw StlFileError(path + ": error: not a regular file");
   std::ifstream in(path, std::ios::binary);
-  if (!in) throw StlError(path + ": error: cannot be opened; check its permissions");
+  if (!in) throw StlFileError(path + ": error: cannot be opened; check its permissions");
   std::string bytes(static_cast<std::size_t>(std::filesystem::file_size(path)), '\0');
   in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   if (static_cast<std::size_t>(in.gcount()) != bytes.size())
-    throw StlError(path + ": error: cannot be read to its end");
+    throw StlFileError(path + ": error: cannot be read to its end");
   return bytes;
 }
 
@@ -122,31 +122,36 @@ void parse_binary(const std::string& path, std::string_view bytes, double unit, 
 
 }  // namespace
 
-TriangleMesh read_stl(const std::string& path, double unit) {
-  if (!(unit > 0.0) || !std::isfinite(unit)) {
-    throw StlError(path + ": error: the unit must be a positive number of metres, e.g. 0.001 for mm");
-  }
-  const std::string bytes = read_file(path);
-  if (bytes.empty()) throw StlError(path + ": error: the file is empty");
-  if (bytes.size() / triangle_bytes > 700'000'000) {
-    throw StlError(path + ": error: more than 700 million triangles; coarsen the surface");
-  }
-  TriangleMesh mesh;
-  if (!has_binary_length(bytes) && begins_like_text(bytes)) {
-    parse_stl_text(path, bytes, unit, mesh);
-  } else {
-    parse_binary(path, bytes, unit, mesh);
-  }
-  if (mesh.triangles.empty()) throw StlError(path + ": error: the file holds no triangles; export the surface again");
-
+double weld_tolerance(const TriangleMesh& mesh) {
+  if (mesh.vertices.empty()) return 0.0;
   Vec3 low = mesh.vertices[0], high = low;
   for (const auto& v : mesh.vertices) {
     low = low.cwiseMin(v);
     high = high.cwiseMax(v);
   }
-  weld(mesh, weld_fraction * (high - low).norm());
+  return weld_fraction * (high - low).norm();
+}
+
+TriangleMesh parse_stl(const std::string& name, std::string_view bytes, double unit) {
+  if (!(unit > 0.0) || !std::isfinite(unit)) {
+    throw StlError(name + ": error: the unit must be a positive number of metres, e.g. 0.001 for mm");
+  }
+  if (bytes.empty()) throw StlError(name + ": error: the file is empty");
+  if (bytes.size() / triangle_bytes > 700'000'000) {
+    throw StlError(name + ": error: more than 700 million triangles; coarsen the surface");
+  }
+  TriangleMesh mesh;
+  if (!has_binary_length(bytes) && begins_like_text(bytes)) {
+    parse_stl_text(name, bytes, unit, mesh);
+  } else {
+    parse_binary(name, bytes, unit, mesh);
+  }
+  if (mesh.triangles.empty()) throw StlError(name + ": error: the file holds no triangles; export the surface again");
+  weld(mesh, weld_tolerance(mesh));
   return mesh;
 }
+
+TriangleMesh read_stl(const std::string& path, double unit) { return parse_stl(path, read_file(path), unit); }
 
 void write_stl(const std::string& path, const TriangleMesh& mesh, bool binary, double unit) {
   if (!(unit > 0.0)) throw StlError(path + ": error: the unit must be a positive number of metres");
@@ -177,12 +182,12 @@ void write_stl(const std::string& path, const TriangleMesh& mesh, bool binary, d
     if (!file) {
       std::error_code ignored;
       std::filesystem::remove(partial, ignored);
-      throw StlError(path + ": error: cannot be written; does the folder exist, and is there room on the disk?");
+      throw StlFileError(path + ": error: cannot be written; does the folder exist, and is there room on the disk?");
     }
   }
   std::error_code error;
   std::filesystem::rename(partial, path, error);
-  if (error) throw StlError(path + ": error: cannot be replaced: " + error.message());
+  if (error) throw StlFileError(path + ": error: cannot be replaced: " + error.message());
 }
 
 }  // namespace puffin::lbm::geometry

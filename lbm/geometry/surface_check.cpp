@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <map>
 
@@ -46,7 +47,9 @@ void check_edges(const TriangleMesh& mesh, const Adjacency& adjacency, std::vect
     if (uses.size() == 1) {
       add_place(hole, middle,
                 "the surface has a hole: " + edge_text(mesh, ends) +
-                    " belongs to one triangle only; close the surface in the CAD program or use --repair");
+                    " belongs to one triangle only; if it is an opening, close it with a flat cap in a solid of its "
+                    "own, else close the "
+                    "surface in the CAD program or use --repair");
     } else if (uses.size() > 2) {
       // Four triangles in balance are two bodies that touch in an edge: a volume all the same.
       if (balance(uses) != 0) crowded.fatal = true;
@@ -99,20 +102,52 @@ void check_facets(const TriangleMesh& mesh, std::vector<Defect>& found) {
   }
 }
 
+// The unit in which a surface that is `longest` long as it was read would be 5 mm to 500 mm long.
+std::string likely_unit(double longest) {
+  struct Unit {
+    const char* name;
+    double metres;
+  };
+  // Read as `from`, meant as `to`.
+  constexpr std::array<Unit, 5> units{{{"m", 1.0}, {"inch", 0.0254}, {"cm", 1e-2}, {"mm", 1e-3}, {"um", 1e-6}}};
+  // Too large: taken for m; too small: taken for mm.
+  for (const Unit& from :
+       longest > 1.0 ? std::array{units[0], units[2], units[3]} : std::array{units[3], units[0], units[2]})
+    for (const Unit& to : units) {
+      const double meant = longest / from.metres * to.metres;
+      if (meant >= 5e-3 && meant <= 0.5)
+        return std::string("; if it was read in ") + from.name + ", its unit may be " + to.name +
+               (std::string(to.name) == "inch" ? " (export in mm)" : "") + ": " + text(meant * 1e3) + " mm long";
+    }
+  return "";
+}
+
 void check_size(const TriangleMesh& mesh, std::vector<Defect>& found) {
   Vec3 low = mesh.vertices[0], high = low;
   for (const auto& v : mesh.vertices) {
     low = low.cwiseMin(v);
     high = high.cwiseMax(v);
   }
+  const double longest = (high - low).maxCoeff(), away = low.cwiseAbs().cwiseMax(high.cwiseAbs()).maxCoeff();
   // Devices and test channels are between 0.2 mm and 2 m long.
-  const double longest = (high - low).maxCoeff();
-  if (longest >= 2e-4 && longest <= 2.0) return;
-  found.push_back({.kind = "suspicious size",
-                   .count = 1,
-                   .where = {0.5 * (low + high)},
-                   .message = "the surface is " + text(longest) + " m long; is the unit right? Set unit = \"mm\" (or " +
-                              "another) in [geometry], or --unit"});
+  if (longest < 2e-4 || longest > 2.0)
+    found.push_back({.kind = "suspicious size",
+                     .count = 1,
+                     .where = {0.5 * (low + high)},
+                     .message = "the surface is " + text(longest) +
+                                " m long; is the unit right? Set unit = \"mm\" (or " +
+                                "another) in [geometry], or --unit" + likely_unit(longest)});
+  // Single precision resolves 2^-24 of the largest coordinate.
+  const double resolved = std::ldexp(away, -24);
+  if (resolved > 1e-5 * longest)
+    found.push_back({.kind = "coarse coordinates",
+                     .count = 1,
+                     .where = {0.5 * (low + high)},
+                     .message = "the surface lies " + text(away) +
+                                " m from the origin, where the single precision of "
+                                "STL resolves " +
+                                text(resolved) + " m, " + text(100.0 * resolved / longest) +
+                                " % of its length; move it to the origin before the export"});
 }
 
 }  // namespace
@@ -155,9 +190,9 @@ std::vector<Defect> check_surface(const TriangleMesh& mesh, bool self_intersecti
     Defect crossing{.kind = "self-intersection"};
     for (const Intersection& i : find_self_intersections(mesh)) {
       add_place(crossing, i.where,
-                "two triangles cross at " + place_text(i.where) +
-                    " without sharing an edge; the enclosed volume is taken as " +
-                    "their union; export the union of the bodies to be sure");
+                "two triangles cross or overlap at " + place_text(i.where) +
+                    "; the enclosed volume is taken as their union, and a run refuses faces inside it; export the "
+                    "union of the bodies");
     }
     if (crossing.count > 0) found.push_back(std::move(crossing));
   }

@@ -19,7 +19,7 @@ class GeometryError : public std::runtime_error {
 /// One kind of fault. Kinds: "hole" (edges with one triangle), "non-manifold edge" (more than two), "duplicate facet",
 /// "degenerate facet" (no area), "inconsistent orientation" (edges that two triangles run through in the same
 /// direction), "inside out" (negative volume), "self-intersection", "disconnected part", "nested shell",
-/// "suspicious size".
+/// "suspicious size", "coarse coordinates" (so far from the origin that single precision shows).
 struct Defect {
   std::string kind{};
   std::size_t count = 0;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lbm/geometry/node_bounds.hpp"
 #include "lbm/geometry/triangle_distance.hpp"
 #include "lbm/geometry/triangle_tree.hpp"
 
@@ -112,20 +113,14 @@ void TriangleTree::near_features(const Vec3& centre, double reach, const std::ve
                                  std::vector<Feature>& out, Side side) const {
   Gatherer gatherer(*this, centre, reach, skip_triangle, side, out);
   const Vec3 q = centre - centre_;
-  const std::array<float, 3> x{static_cast<float>(q.x()), static_cast<float>(q.y()), static_cast<float>(q.z())};
+  const auto point4 = four_times(static_cast<float>(q.x()), static_cast<float>(q.y()), static_cast<float>(q.z()));
   const double reach2 = reach * reach;
   std::array<std::int32_t, 256> stack;
   int top = 0;
   stack[top++] = 0;
   while (top > 0) {
     const Node& node = nodes_[stack[--top]];
-    std::array<float, 4> bound{};
-    for (int c = 0; c < 4; ++c) {
-      for (int d = 0; d < 3; ++d) {
-        const float e = std::max(std::max(node.low[d][c] - x[d], x[d] - node.high[d][c]), 0.0f);
-        bound[c] += e * e;
-      }
-    }
+    const Lanes bound = squared_distances(node, point4);
     for (int c = 0; c < 4; ++c) {
       if (node.count[c] == 0 || bound[c] * (1.0f - 1e-6f) > reach2) continue;
       if (node.child[c] >= 0) {

@@ -7,14 +7,13 @@
 #include <stdexcept>
 #include <string>
 
+#include "lbm/geometry/node_bounds.hpp"
 #include "lbm/geometry/tree_build.hpp"
 #include "lbm/geometry/triangle_distance.hpp"
 
 namespace puffin::lbm::geometry {
 
 namespace {
-
-using Float4 = std::array<float, 4>;
 
 // Room for the deepest tree the builder makes: at most 40 splits by area and 31 by halving, two a level, three siblings
 // left behind a level.
@@ -58,7 +57,7 @@ TriangleTree::TriangleTree(std::shared_ptr<const TriangleMesh> mesh) : mesh_(std
 
 Closest TriangleTree::closest(const Vec3& p, double limit) const {
   const Vec3 q = p - centre_;
-  const float x = static_cast<float>(q.x()), y = static_cast<float>(q.y()), z = static_cast<float>(q.z());
+  const auto point4 = four_times(static_cast<float>(q.x()), static_cast<float>(q.y()), static_cast<float>(q.z()));
   double best = limit * limit;
   Closest result;
 
@@ -87,13 +86,7 @@ Closest TriangleTree::closest(const Vec3& p, double limit) const {
       continue;
     }
     const Node& node = nodes_[entry.child];
-    Float4 bound;
-    for (int c = 0; c < 4; ++c) {
-      const float ex = std::max(std::max(node.low[0][c] - x, x - node.high[0][c]), 0.0f);
-      const float ey = std::max(std::max(node.low[1][c] - y, y - node.high[1][c]), 0.0f);
-      const float ez = std::max(std::max(node.low[2][c] - z, z - node.high[2][c]), 0.0f);
-      bound[c] = (ex * ex + ey * ey + ez * ez) * (1.0f - slack);
-    }
+    const Lanes bound = squared_distances(node, point4) * (1.0f - slack);
     const int first = top;
     for (int c = 0; c < 4; ++c) {
       if (node.count[c] == 0 || bound[c] > best) continue;

@@ -101,7 +101,9 @@ VoxelReport voxel_report(const TriangleTree& tree, const Voxels& voxels, const P
     patch.area += mesh.area(static_cast<int>(t));
     ++patch.triangles;
     opening[t] = patch.opening;
+    if (patch.opening) report.area_openings += mesh.area(static_cast<int>(t));
   }
+  report.hidden = hidden_faces(tree, voxels, opening);
   const Widths widths = measure(tree, opening);
   report.narrowest_gap = widths.gap.width;
   report.narrowest_gap_at = widths.gap.middle;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lbm/geometry/patches.hpp"
+#include "lbm/geometry/voxel_errors.hpp"
 #include "lbm/geometry/voxelize.hpp"
 
 namespace puffin::lbm::geometry {
@@ -29,6 +30,8 @@ struct VoxelReport {
   Vec3 thinnest_wall_at = Vec3::Zero();  // [m]
   double recommended_dx = 0.0;           // [m] puts `cells_across` cells across the narrowest gap
   Pockets pockets;                       // dropped
+  HiddenFaces hidden;
+  double area_openings = 0.0;  // [m^2]
   std::vector<PatchReport> patches;
 
   static constexpr double cells_across = 8.0;

@@ -1,3 +1,4 @@
+#include "lbm/kernel.hpp"
 #include "lbm/scalars/sweep_isa.inc.hpp"
 
 namespace puffin::lbm {
@@ -6,7 +7,7 @@ SweepKernel baseline_sweep() { return {outgoing, update, limit}; }
 
 SweepKernel select_sweep() {
 #if defined(__x86_64__)
-  if (__builtin_cpu_supports("avx2") && avx2_sweep().outgoing) return avx2_sweep();
+  if (detect_isa() != Isa::baseline && avx2_sweep().outgoing) return avx2_sweep();
 #endif
   return baseline_sweep();
 }

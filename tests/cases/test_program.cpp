@@ -78,6 +78,46 @@ TEST_F(Program, ASurfaceWithAHoleEndsWith4) {
   EXPECT_EQ(puffin("voxelize " + stl + " --dx 0.1mm").code, 4);
 }
 
+TEST_F(Program, AnUnusableSurfaceIsDescribedAsJsonAndAsAPictureBeforeTheProgramEndsWith4) {
+  const std::string stl = file("hole.stl",
+                               "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"
+                               "endloop\nendfacet\nendsolid s\n");
+  const Outcome o = puffin("voxelize " + stl + " --dx 0.1mm --json --out " + (folder_ / "look").string());
+  EXPECT_EQ(o.code, 4);
+  EXPECT_TRUE(one_object(o.out)) << o.out;
+  for (const char* part : {"\"ok\": false", "\"kind\": \"hole\"", "\"count\": 3", "\"cells_fluid\": null", "--repair"})
+    EXPECT_NE(o.out.find(part), std::string::npos) << part << o.out;
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "look/report.png"));
+}
+
+TEST_F(Program, AMissingSurfaceAndAFolderThatIsNotThereEndWith7) {
+  EXPECT_EQ(puffin("voxelize no-such.stl --dx 0.1mm").code, 7);
+  EXPECT_EQ(puffin("geometry box --out no/such/folder/box.stl").code, 7);
+}
+
+TEST_F(Program, ARepairedSurfaceIsWrittenAndNeedsNoRepair) {
+  const std::string stl = (folder_ / "box.stl").string(), mended = (folder_ / "mended").string();
+  ASSERT_EQ(puffin("geometry box --set x=2mm --set y=1mm --set z=1mm --out " + stl).code, 0);
+  std::ifstream in(stl);
+  const std::string whole{std::istreambuf_iterator<char>(in), {}};
+  const auto first = whole.find(" facet"), second = whole.find(" facet", first + 1);
+  const std::string damaged = file("damaged.stl", whole.substr(0, first) + whole.substr(second));
+  EXPECT_EQ(puffin("voxelize " + damaged + " --dx 0.1mm").code, 4);
+  const Outcome o = puffin("voxelize " + damaged + " --dx 0.1mm --repair --largest-hole 10mm --json --out " + mended);
+  EXPECT_EQ(o.code, 0) << o.out;
+  EXPECT_NE(o.out.find("filled holes: 1"), std::string::npos) << o.out;
+  EXPECT_EQ(puffin("voxelize " + mended + "/repaired.stl --dx 0.1mm").code, 0);
+}
+
+TEST_F(Program, AnOpeningThatTheCaseForgetsEndsWith4) {
+  const std::string air =
+      "name = \"forgetful\"\n[geometry]\ngenerator = \"duct\"\n[air]\nmodel = \"lbm\"\n"
+      "density = 1.2\nviscosity = 1.8e-5\n[numerics]\ncells = 4000\nreference_speed = 1.0\n[stop]\ntime = \"1 ms\"\n";
+  const Outcome o = puffin("check " + file("forgetful.toml", air) + " --json");
+  EXPECT_EQ(o.code, 4) << o.out;
+  EXPECT_NE(o.out.find("untagged opening: the patch 'inlet'"), std::string::npos) << o.out;
+}
+
 TEST_F(Program, TheQuickLBaseIsFoundRight) {
   const Outcome o = puffin("check " + l_base + " --preset quick --json");
   EXPECT_EQ(o.code, 0);
@@ -93,6 +133,14 @@ TEST_F(Program, AGeneratedSurfaceCanBeVoxelized) {
   EXPECT_TRUE(one_object(o.out));
   EXPECT_NE(o.out.find("\"cells_fluid\": 2000"), std::string::npos) << o.out;
   EXPECT_TRUE(std::filesystem::exists(folder_ / "voxels.vti"));
+}
+
+TEST_F(Program, TheDoctorNamesWhatIsWrongWithAMachine) {
+  setenv("TMPDIR", "/proc/nowhere", 1);
+  const Outcome o = puffin("doctor");
+  unsetenv("TMPDIR");
+  EXPECT_EQ(o.code, 6);
+  EXPECT_NE(o.out.find("set TMPDIR to a folder that can be written"), std::string::npos) << o.out;
 }
 
 TEST_F(Program, PlanSaysWhatIsSkippedAndWhy) {

@@ -9,8 +9,10 @@ and through them the headers of our folders. Says which files the build does not
 
 import json
 import os
+import re
 import subprocess
 import sys
+import tempfile
 import time
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -27,6 +29,15 @@ def chosen(root: Path, which: str) -> list[Path]:
 def compiled(build: Path) -> set[Path]:
     commands = json.loads((build / "compile_commands.json").read_text())
     return {(Path(entry["directory"]) / entry["file"]).resolve() for entry in commands}
+
+
+def without_precompiled(build: Path, folder: str) -> Path:
+    """The compile commands without gcc's precompiled headers, which clang cannot read; our sources do not need them."""
+    entries = json.loads((build / "compile_commands.json").read_text())
+    for entry in entries:
+        entry["command"] = re.sub(r" -Winvalid-pch| -include \S*cmake_pch\.hxx", "", entry["command"])
+    (Path(folder) / "compile_commands.json").write_text(json.dumps(entries))
+    return Path(folder)
 
 
 def tidy(root: Path, build: Path, program: str, path: Path) -> tuple[Path, float, str]:
@@ -47,8 +58,9 @@ def check(root: Path, build: Path, which: str, program: str = "clang-tidy") -> l
         if path not in paths:
             print(f"not compiled by this build, so not checked: {path}")
     try:
-        with ThreadPoolExecutor(jobs) as pool:
-            results = list(pool.map(lambda path: tidy(root, build, program, path), paths))
+        with ThreadPoolExecutor(jobs) as pool, tempfile.TemporaryDirectory() as folder:
+            commands = without_precompiled(build, folder)
+            results = list(pool.map(lambda path: tidy(root, commands, program, path), paths))
     except FileNotFoundError:
         return [f"{program} is not there; tools/check installs it"]
     slowest = max(results, key=lambda result: result[1])

@@ -24,11 +24,12 @@ struct KernelRow {
   double mlups = 0.0;              // complete steps: collision, streaming, walls, openings
   double mlups_bare = 0.0;         // collision and streaming alone
   double bound_mlups = 0.0;        // 19 reads and 19 writes a cell of the same memory, in place
-  double fraction_of_bound = 0.0;  // mlups / bound_mlups
-  double copy_bandwidth = 0.0;     // [B/s] of a plain copy of the same size
-  double bound_over_copy = 0.0;    // bandwidth of the bound's stream over that of the copy
-  double foreign_load = 0.0;       // share of the cores that other processes used meanwhile
-  double seconds = 0.0;            // wall-clock of the row
+  double fraction_of_bound = 0.0;  // mlups / bound_mlups, median over the turns
+  double bare_fraction_of_bound = 0.0;
+  double copy_bandwidth = 0.0;   // [B/s] of a plain copy of the same size
+  double bound_over_copy = 0.0;  // bandwidth of the bound's stream over that of the copy
+  double foreign_load = 0.0;     // share of the cores that other processes used meanwhile
+  double seconds = 0.0;          // wall-clock of the row
 };
 
 /// All rows of `puffin bench kernel`. sizes: wanted numbers of cells; empty: 0.21, 1, 4 and 16 million. quick: fewer
@@ -36,7 +37,8 @@ struct KernelRow {
 std::vector<KernelRow> kernel_benchmark(bool quick, std::vector<double> sizes,
                                         const std::function<void(const KernelRow&)>& row_done);
 
-/// One row: at least `seconds` of steps, in alternation with the bound's stream; medians over `repeats`.
+/// One row: `repeats` turns of bound, whole steps, bare kernel and copy, at least `seconds` each; medians over the
+/// turns.
 KernelRow measure_kernel(const KernelSetting& setting, double seconds, int repeats);
 
 }  // namespace puffin::bench

@@ -15,8 +15,8 @@ struct Machine {
 /// Reads /proc/cpuinfo; unknown fields stay empty.
 Machine describe_machine(const std::string& commit);
 
-/// Processor time that other processes used between construction and `share()`, over the time of all cores: 0 on a
-/// quiet machine. A stolen core halves two threads, so figures with a share above a few per cent are no measurement.
+/// Processor time that processes other than this one and its ended children used between construction and `share()`,
+/// over the time of all cores: 0 on a quiet machine. A stolen core halves two threads, so figures with a share above a few per cent are no measurement.
 class ForeignLoad {
  public:
   ForeignLoad();

@@ -3,6 +3,8 @@
 #include <fstream>
 #include <vector>
 
+#include "tools/output/format_version.hpp"
+
 namespace puffin::output {
 
 hid_t Hdf5File::good(hid_t id, const std::string& what) const {
@@ -23,9 +25,8 @@ Hdf5File::Hdf5File(const std::filesystem::path& path, const std::string& format)
   const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose);
   const Hdf5Handle version(H5Acreate2(file_, "format_version", H5T_STD_I32LE, space, H5P_DEFAULT, H5P_DEFAULT),
                            H5Aclose);
-  const int one = 1;
   good(version, "write");
-  good(H5Awrite(version, H5T_NATIVE_INT, &one), "write");
+  good(H5Awrite(version, H5T_NATIVE_INT, &format_version), "write");
 }
 
 Hdf5File Hdf5File::reading(const std::filesystem::path& path, const std::string& format) {
@@ -52,9 +53,9 @@ void Hdf5File::check_format(const std::string& format) const {
     const Hdf5Handle attribute(H5Aopen(file_, "format_version", H5P_DEFAULT), H5Aclose);
     H5Aread(attribute, H5T_NATIVE_INT, &version);
   }
-  if (version != 1 || text(file_, "format") != format) {
-    throw OutputError(path_.string() + " is no " + format + " file of version 1; it comes from another program");
-  }
+  if (text(file_, "format") != format)
+    throw OutputError(path_.string() + " is no " + format + " file; it comes from another program");
+  check_format_version(path_.string(), version);
 }
 
 Hdf5Handle Hdf5File::create_growing(hid_t parent, const std::string& name, hid_t type, hsize_t chunk) const {

@@ -52,8 +52,8 @@ class Hdf5Quiet {
 /// A file with the operations that both writers need.
 class Hdf5File {
  public:
-  /// Creates a file for writing and stores `format` with version 1. It grows in memory; flush() writes it: HDF5 itself
-  /// cannot be told of a full disk without crashing when the program ends (1.10.8).
+  /// Creates a file for writing and stores `format` and format_version. It grows in memory; flush() writes it: HDF5
+  /// itself cannot be told of a full disk without crashing when the program ends (1.10.8).
   Hdf5File(const std::filesystem::path& path, const std::string& format);
   /// Opens for reading and checks the format.
   static Hdf5File reading(const std::filesystem::path& path, const std::string& format);

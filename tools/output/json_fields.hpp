@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/output/format_version.hpp"
 #include "tools/output/output_error.hpp"
 
 namespace puffin::output {
@@ -64,12 +65,15 @@ inline std::vector<double> numbers(const Json& list) {
   return out;
 }
 
-/// Throws OutputError if the file is missing or holds no object.
+/// Throws OutputError if the file is missing, holds no object, or is of another format.
 inline Json read_json(const std::filesystem::path& file) {
   std::ifstream stream(file);
   if (!stream) throw OutputError("cannot read " + file.string() + "; is this the folder of a run?");
   Json json = Json::parse(stream, nullptr, false);
   if (!json.is_object()) throw OutputError(file.string() + " is damaged: it holds no JSON object");
+  // Files from before formats had a number are of the first one.
+  if (json.contains("format"))
+    check_format_version(file.string(), json["format"].is_number_integer() ? json["format"].get<int>() : -1);
   return json;
 }
 

@@ -17,6 +17,7 @@ void fields(Status& s, const Field& field) {
 
 void write_status(const std::filesystem::path& file, const Status& status) {
   Json json = Json::object();
+  json["format"] = format_version;
   Status copy = status;
   fields(copy, JsonWriter{json});
   json["warnings"] = status.warnings;

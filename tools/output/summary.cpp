@@ -18,6 +18,7 @@ void fields(CarrierSummary& c, const Field& field) {
   field("retained_fraction", c.retained_fraction);
   field("first_motion", c.first_motion), field("first_emitted", c.first_emitted);
   field("last_emitted", c.last_emitted), field("RDF", c.RDF);
+  field("momentum_error", c.momentum_error);
 }
 
 template <class Field>
@@ -37,6 +38,7 @@ void fields(CollisionSummary& c, const Field& field) {
   field("median_per_carrier", c.median_per_carrier);
   field("median_per_emitted_carrier", c.median_per_emitted_carrier);
   field("mean_wall_energy", c.mean_wall_energy), field("mean_particle_energy", c.mean_particle_energy);
+  field("largest_overlap", c.largest_overlap);
 }
 
 template <class Field>
@@ -117,7 +119,9 @@ Summary summary_of(const Json& json) {
 }
 
 Json to_json(const Summary& s) {
-  Json json = written(s);
+  Json json = Json::object();
+  json["format"] = format_version;
+  json.update(written(s));
   json["warnings"] = s.warnings;
   json["phases"] = Json::object();
   for (const auto& phase : s.phases) json["phases"][phase.name] = number(phase.seconds);

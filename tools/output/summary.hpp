@@ -29,6 +29,7 @@ struct CarrierSummary {
   double retained_fraction = 0.0;
   std::optional<double> first_motion, first_emitted, last_emitted;  // [s]
   std::optional<double> RDF;                                        // retained mass over the dose
+  std::optional<double> momentum_error;  // impulse given less impulse taken by the air, over the impulse exchanged
 };
 
 struct MechanismShares {
@@ -48,6 +49,7 @@ struct CollisionSummary {
   double wall = 0.0, particle = 0.0;
   std::optional<double> median_per_carrier, median_per_emitted_carrier;
   std::optional<double> mean_wall_energy, mean_particle_energy;  // [J]
+  std::optional<double> largest_overlap;                         // of any contact, part of the (smaller) diameter
 };
 
 struct SkippedWork {

@@ -16,6 +16,7 @@
 #include <vtkXMLImageDataReader.h>
 #include <vtkXMLPolyDataReader.h>
 
+#include "tools/output/format_version.hpp"
 #include "tools/output/output_error.hpp"
 #include "tools/output/vtk_series.hpp"
 
@@ -53,6 +54,8 @@ vtkSmartPointer<Reader> read_xml(const std::filesystem::path& file) {
   const bool readable = reader->CanReadFile(file.c_str());
   if (readable) reader->Update();
   if (!readable || quiet.complained()) throw OutputError(file.string() + " is damaged or is no VTK file");
+  if (vtkDataArray* format = reader->GetOutput()->GetFieldData()->GetArray("puffin_format"))
+    check_format_version(file.string(), static_cast<int>(format->GetTuple1(0)));
   return reader;
 }
 

@@ -19,6 +19,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "tools/output/format_version.hpp"
 #include "tools/output/output_error.hpp"
 #include "tools/output/output_folder.hpp"
 #include "tools/output/vtk_series.hpp"
@@ -50,6 +51,10 @@ void add_array(vtkDataSetAttributes* attributes, const std::string& name, std::s
 /// zlib at its quickest level: half the time of the usual one for a tenth more bytes.
 template <class Writer, class Data>
 void write_xml(const std::filesystem::path& file, Data* data) {
+  vtkNew<vtkIntArray> format;
+  format->SetName("puffin_format");
+  format->InsertNextValue(format_version);
+  data->GetFieldData()->AddArray(format);
   vtkNew<Writer> writer;
   writer->SetInputData(data);
   writer->SetDataModeToAppended();

@@ -20,7 +20,12 @@ using nlohmann::json;
 
 std::span<const Bench> benches() {
   static constexpr std::array list{
+      Bench{"geometry", "STL to cells, distances beside VTK's", &bench_geometry},
       Bench{"kernel", "the air alone, beside the memory's bound", &bench_kernel},
+      Bench{"dem", "carriers, beside LIGGGHTS where that is installed", &bench_dem},
+      Bench{"pareto", "run time against error over many settings", &bench_pareto},
+      Bench{"skip", "what is left out, put back in: time and change of the answer", &bench_skip},
+      Bench{"scaling", "cost as cells, carriers, scalars and triangles grow", &bench_scaling},
   };
   return list;
 }
@@ -76,6 +81,8 @@ Command bench() {
             app.add_option("name", a->name, what)->required()->check(CLI::IsMember(names));
             app.add_flag("--quick", a->quick, "a smaller set, in a minute or two");
             app.add_option("--cells", a->cells, "kernel: numbers of cells instead of the usual ones")
+                ->check(CLI::PositiveNumber);
+            app.add_option("--carriers", a->carriers, "dem: numbers of carriers instead of the usual ones")
                 ->check(CLI::PositiveNumber);
             app.add_option("--only", a->only, "pareto: this case alone, like P9; may be repeated")->type_name("ID");
             app.add_option("--out", a->out, "a folder for the rows as CSV and JSON, and for figures");

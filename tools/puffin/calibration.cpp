@@ -62,8 +62,7 @@ Calibration calibrate(const cases::Numerics& n) {
   int steps = 0;
   Clock::time_point begin = Clock::now();
   for (bool warm = false; !warm || seconds_since(begin) < 0.8; ++steps) {
-    lbm::collide_and_stream(constants, drive, air);
-    lbm::apply_links(drive, air);
+    lbm::advance_air(constants, drive, air);
     if (!warm && seconds_since(begin) > 0.2) {  // caches, pages and clock speed have settled
       warm = true;
       steps = 0;

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cases/check_boundaries.hpp"
+#include "cases/check_tables.hpp"
 #include "cases/micromodel_file.hpp"
 #include "cases/write_case.hpp"
 #include "tools/puffin/arguments.hpp"
@@ -21,6 +22,7 @@ int check_case(const CaseArguments& a) {
   const cases::Surface surface = cases::load_surface(c, true);
   if (auto problems = cases::boundary_problems(c, surface); !problems.empty())
     throw cases::CaseError(std::move(problems));
+  if (auto problems = cases::table_problems(c); !problems.empty()) throw cases::CaseError(std::move(problems));
   cases::Assessment assessment = cases::assess(c, surface);
   for (const lbm::geometry::Defect& d : surface.defects) assessment.warnings.push_back(d.kind + ": " + d.message);
   const std::vector<std::string> assumed = cases::assumptions(c);

@@ -8,10 +8,12 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <optional>
+#include <thread>
 
 #include "cases/read_case.hpp"
 #include "cases/search_path.hpp"
-#include "lbm/kernel.hpp"
+#include "lbm/isa.hpp"
 #include "tools/output/render.hpp"
 #include "tools/output/stats_file.hpp"
 #include "tools/output/vtk_series.hpp"
@@ -31,15 +33,10 @@ std::string processor() {
 }
 
 std::string instruction_set() {
-  switch (lbm::detect_isa()) {
-    case lbm::Isa::avx512:
-      return "avx512";
-    case lbm::Isa::avx2:
-      return "avx2";
-    case lbm::Isa::baseline:
-      break;
-  }
-  return "baseline";
+  const lbm::Isa isa = lbm::detect_isa(), best = lbm::hardware_isa();
+  std::string text = lbm::name(isa);
+  if (isa != best) text += std::string(" (PUFFIN_ISA; the processor offers ") + lbm::name(best) + ")";
+  return text;
 }
 
 /// A folder of its own that goes away with it.
@@ -106,13 +103,53 @@ bool tell(const std::string& name, const std::function<std::string()>& test) {
   }
 }
 
+/// Room for a run of a device at the default cell and for its files.
+constexpr double least_memory = 1e9, least_disk = 1e9;  // [byte]
+
+std::string memory() {
+  const double bytes = available_memory();
+  if (bytes < least_memory)
+    throw std::runtime_error(as_bytes(bytes) + " available; a device at the default cell needs about " +
+                             as_bytes(least_memory) + ": end other programs, or take a larger dx");
+  return as_bytes(bytes) + " available";
+}
+
+std::string disk() {
+  const std::filesystem::path here = std::filesystem::current_path();
+  if (access(here.c_str(), W_OK) != 0)
+    throw std::runtime_error(here.string() + " cannot be written: results need another place, with --out");
+  const auto bytes = static_cast<double>(std::filesystem::space(here).available);
+  if (bytes < least_disk)
+    throw std::runtime_error(as_bytes(bytes) + " free in " + here.string() +
+                             "; pictures and checkpoints of a run take " + "up to " + as_bytes(least_disk) +
+                             ": free some, or choose another place with --out");
+  return as_bytes(bytes) + " free in " + here.string();
+}
+
+std::string threads() {
+  const int usable = oneapi::tbb::info::default_concurrency();
+  const auto present = static_cast<int>(std::thread::hardware_concurrency());
+  std::string text = std::to_string(usable);
+  if (usable < present) text += " of " + std::to_string(present) + " (taskset or a container holds back the others)";
+  return text;
+}
+
 int doctor() {
-  const Scratch scratch;
-  bool well = true;
+  bool fit = true, well = true;
+  std::optional<Scratch> scratch;
+  fit &= tell("scratch", [&]() -> std::string {
+    try {
+      scratch.emplace();
+    } catch (const std::filesystem::filesystem_error& e) {
+      throw std::runtime_error(std::string(e.code().message()) + ": set TMPDIR to a folder that can be written");
+    }
+    return scratch->path().parent_path().string() + " can be written";
+  });
   well &= tell("processor", processor);
   well &= tell("kernel", instruction_set);
-  well &= tell("threads", [] { return std::to_string(oneapi::tbb::info::default_concurrency()); });
-  well &= tell("memory", [] { return as_bytes(available_memory()) + " available"; });
+  well &= tell("threads", threads);
+  fit &= tell("memory", memory);
+  fit &= tell("disk", disk);
   well &= tell("bandwidth", [] { return four_digits(memory_bandwidth() / 1e9) + " GB/s"; });
   well &= tell("lattice", [] {
     cases::Numerics n;
@@ -121,15 +158,17 @@ int doctor() {
     const double speed = calibrate(n).updates_per_second;
     return four_digits(speed / 1e6) + " million cells a second (rr3, smagorinsky, float)";
   });
-  well &= tell("vtk", [&] { return test_vtk(scratch.path()), "writes and reads"; });
-  well &= tell("hdf5", [&] { return test_hdf5(scratch.path()), "writes and reads"; });
-  well &= tell("pictures", [&] { return test_picture(scratch.path()), "painted without a display"; });
+  if (!scratch) return resources;  // the libraries are tested by writing
+  well &= tell("vtk", [&] { return test_vtk(scratch->path()), "writes and reads"; });
+  well &= tell("hdf5", [&] { return test_hdf5(scratch->path()), "writes and reads"; });
+  well &= tell("pictures", [&] { return test_picture(scratch->path()), "painted without a display"; });
   well &= tell("micromodels", [] {
     for (const std::string& folder : cases::micromodel_directories())
       if (std::filesystem::is_directory(folder)) return folder;
-    throw std::runtime_error("none of the folders of shipped micro-models is there");
+    throw std::runtime_error("none of the folders of shipped micro-models is there: install Puffin anew, or name " +
+                             std::string("micro-model files by their whole path"));
   });
-  return well ? ok : internal_error;
+  return !well ? internal_error : fit ? ok : resources;
 }
 
 }  // namespace

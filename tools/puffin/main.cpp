@@ -8,6 +8,7 @@
 
 #include "cases/case_error.hpp"
 #include "cases/spelling.hpp"
+#include "lbm/isa.hpp"
 #include "tools/puffin/build_info.hpp"
 #include "tools/puffin/commands.hpp"
 #include "tools/puffin/console.hpp"
@@ -33,7 +34,10 @@ int report(const std::exception& error, bool json) {
     }
   } else {
     problems.push_back({{"message", error.what()}});
-    if (!json) log_error(error.what());
+    const std::string text = error.what();
+    const bool complete = text.starts_with("error: ") || text.find(": error: ") != std::string::npos;
+    if (!json && complete) std::fprintf(stderr, "%s\n", text.c_str());
+    if (!json && !complete) log_error(text);
   }
   const nlohmann::json object{{"ok", false}, {"exit_code", static_cast<int>(code)}, {"problems", problems}};
   if (json) print(object.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
@@ -61,6 +65,9 @@ int run(int argc, char** argv) {
     CLI::App* sub = app.add_subcommand(command.name, command.summary);
     actions[sub] = command.add(*sub);
   }
+  const char* isa = std::getenv("PUFFIN_ISA");
+  if (const std::string_view problem = lbm::isa_problem(isa); !problem.empty())
+    return report(UsageError("PUFFIN_ISA=" + std::string(isa) + " " + std::string(problem)), json);
   const std::string first = argc > 1 ? argv[1] : "-";
   if (!first.starts_with('-') && std::find(names.begin(), names.end(), first) == names.end()) {
     const std::string near = cases::nearest(first, names);

@@ -8,9 +8,11 @@
 #include <chrono>
 #include <thread>
 
+#include "cases/case_error.hpp"
 #include "cases/write_case.hpp"
 #include "tools/output/render.hpp"
 #include "tools/output/report.hpp"
+#include "tools/puffin/calibration.hpp"
 #include "tools/puffin/console.hpp"
 #include "tools/puffin/exit_codes.hpp"
 #include "tools/puffin/sampling.hpp"
@@ -32,6 +34,13 @@ void make_pictures_and_report(const std::filesystem::path& run, bool quiet) {
   }
 }
 
+/// What the parts find wrong with their numbers is a mistake of the case.
+std::unique_ptr<cases::Simulation> built(const cases::Case& c, const std::filesystem::path& file) try {
+  return cases::build(c, read_stored_field, available_memory());
+} catch (const std::invalid_argument& e) {
+  throw cases::CaseError({{file.string(), 0, 0, "", e.what()}});
+}
+
 }  // namespace
 
 int run_command(const RunOptions& options) {
@@ -44,7 +53,7 @@ int run_command(const RunOptions& options) {
   const int threads = wanted > 0 ? wanted : static_cast<int>(std::thread::hardware_concurrency());
   const oneapi::tbb::global_control control(oneapi::tbb::global_control::max_allowed_parallelism,
                                             static_cast<std::size_t>(threads));
-  const auto simulation = cases::build(c, read_stored_field);
+  const auto simulation = built(c, options.case_file);
   cases::Simulation& s = *simulation;
   // Only now: the reference speed, and with it the time step, belong to the whole run that the case describes.
   c.stop.time = s.description.stop.time = std::min(c.stop.time, options.until);

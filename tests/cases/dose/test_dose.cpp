@@ -276,14 +276,14 @@ TEST_F(DoseFile, with_a_bad_row_is_refused_by_line) {
   try {
     place(spec_of(file, 2));
     FAIL();
-  } catch (const std::runtime_error& error) {
+  } catch (const std::invalid_argument& error) {
     EXPECT_NE(std::string(error.what()).find(file + ":2:"), std::string::npos) << error.what();
   }
 }
 
 TEST_F(DoseFile, with_another_count_or_missing_is_refused) {
   EXPECT_THROW(place(spec_of(write("count", "0,0,0\n"), 2)), std::invalid_argument);
-  EXPECT_THROW(place(spec_of("/nonexistent/dose.csv", 1)), std::runtime_error);
+  EXPECT_THROW(place(spec_of("/nonexistent/dose.csv", 1)), std::invalid_argument);
 }
 
 }  // namespace

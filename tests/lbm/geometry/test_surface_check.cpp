@@ -130,6 +130,42 @@ TEST(SurfaceCheck, SelfIntersectionsAreFoundAndTouchingFacesAreNot) {
                     "self-intersection"));
 }
 
+TEST(SurfaceCheck, FacesThatOverlapInAPlaneAreSelfIntersections) {
+  // Two boxes whose floors lie in one plane and overlap in a quarter: crossing edges apart, the floors overlap.
+  const auto boxes = joined(cube(), box({0.005, 0.005, 0.0}, {0.015, 0.015, 0.01}));
+  const auto found = find(check_surface(boxes), "self-intersection");
+  ASSERT_TRUE(found);
+  const bool floor = std::any_of(found->where.begin(), found->where.end(), [](const Vec3& w) {
+    return w.z() == 0.0 && w.x() > 0.005 && w.x() < 0.01 && w.y() > 0.005 && w.y() < 0.01;
+  });
+  EXPECT_TRUE(floor);
+  // A facet folded back on its neighbour: two triangles that share an edge and lie on the same side of it.
+  TriangleMesh fold;
+  fold.vertices = {{0, 0, 0}, {0.01, 0, 0}, {0.003, 0.01, 0}, {0.006, 0.005, 0}};
+  fold.triangles = {{0, 1, 2}, {0, 1, 3}};
+  fold.solid = {0, 0};
+  fold.solids = {"s"};
+  EXPECT_TRUE(find(check_surface(fold), "self-intersection"));
+  fold.triangles[1] = {1, 0, 3};  // back to back: a wall without thickness, no overlap of one side with itself
+  EXPECT_FALSE(find(check_surface(fold), "self-intersection"));
+}
+
+TEST(SurfaceCheck, CoordinatesFarFromTheOriginAreToldToBeCoarse) {
+  const Eigen::Matrix3d same = Eigen::Matrix3d::Identity();
+  EXPECT_FALSE(find(check_surface(shapes::transformed(cube(), same, {0.1, 0, 0})), "coarse coordinates"));
+  // 1e6 mm away single precision resolves 0.06 mm: 0.6 % of the cube.
+  const auto found = find(check_surface(shapes::transformed(cube(), same, {1e3, 0, 0})), "coarse coordinates");
+  ASSERT_TRUE(found);
+  EXPECT_NE(found->message.find("0.596"), std::string::npos) << found->message;
+}
+
+TEST(SurfaceCheck, TheLikelyUnitIsNamed) {
+  const auto metres_as_mm = find(check_surface(box({0, 0, 0}, {3e-5, 1e-5, 1e-5})), "suspicious size");
+  EXPECT_NE(metres_as_mm->message.find("unit may be m:"), std::string::npos) << metres_as_mm->message;
+  const auto mm_as_metres = find(check_surface(box({0, 0, 0}, {30, 10, 10})), "suspicious size");
+  EXPECT_NE(mm_as_metres->message.find("unit may be mm:"), std::string::npos) << mm_as_metres->message;
+}
+
 TEST(SurfaceCheck, AWrongUnitIsSuspected) {
   EXPECT_TRUE(find(check_surface(box({0, 0, 0}, {30, 10, 10})), "suspicious size"));
   EXPECT_TRUE(find(check_surface(box({0, 0, 0}, {3e-5, 1e-5, 1e-5})), "suspicious size"));

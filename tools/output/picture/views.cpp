@@ -68,7 +68,8 @@ double speed_scale(const CarrierFrame& carriers) {
   return scale_end(fastest);
 }
 
-Canvas geometry_picture(const WallFrame& walls, const Caption& caption, const Aim& aim, int width, int height) {
+Canvas geometry_picture(const WallFrame& walls, const Caption& caption, const Aim& aim, int width, int height,
+                        const std::vector<PictureMarks>& marks) {
   Canvas canvas(width, height);
   const Extent extent = extent_of(walls);
   const std::vector<PatchMeasure> measures = measures_of(walls);
@@ -88,6 +89,12 @@ Canvas geometry_picture(const WallFrame& walls, const Caption& caption, const Ai
                                colours[walls.patch[t]], plain ? 0.13f : 0.55f});
   }
   scene.edges = outline_of(walls, ink, 1.8f, 0.8f);
+  scene.smallest_radius = 6.0;
+  for (const PictureMarks& m : marks) {
+    const Colour colour = distinct(next++);
+    legend.push_back({colour, m.name, std::to_string(m.count)});
+    for (const auto& at : m.at) scene.spheres.push_back({point_of(at), 0.0, colour});
+  }
   const Box view = stage(width, height, 300);
   const Camera camera = camera_for(walls, aim, view);
   paint(scene, camera, view, canvas);

@@ -1,8 +1,10 @@
 #pragma once
 // The pictures of a run: the device, the carriers in it, a slice through the air, what landed on the walls.
 
+#include <array>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "tools/output/frames.hpp"
 #include "tools/output/picture/canvas.hpp"
@@ -10,8 +12,16 @@
 
 namespace puffin::output {
 
-/// Clear walls with every patch in its colour, names, areas, the outer measures and a scale bar.
-Canvas geometry_picture(const WallFrame& walls, const Caption& caption, const Aim& aim, int width, int height);
+/// Places to be pointed at: each as a dot, the name with its number in the legend.
+struct PictureMarks {
+  std::string name;
+  std::size_t count = 0;                  // of what there is; `at` may hold fewer
+  std::vector<std::array<double, 3>> at;  // [m]
+};
+
+/// Clear walls with every patch in its colour, names, areas, the outer measures and a scale bar; and marks.
+Canvas geometry_picture(const WallFrame& walls, const Caption& caption, const Aim& aim, int width, int height,
+                        const std::vector<PictureMarks>& marks = {});
 
 /// Clear walls and the carriers as spheres coloured by speed; `speed_max` [m/s] ends the scale.
 Canvas carriers_picture(const WallFrame& walls, const CarrierFrame& carriers, const Caption& caption, double speed_max,

@@ -14,6 +14,7 @@ struct BenchArguments {
   std::string name;
   bool quick = false, json = false;
   std::vector<double> cells;      // kernel: numbers of cells instead of the usual ones
+  std::vector<double> carriers;   // dem: numbers of carriers instead of the usual ones
   std::vector<std::string> only;  // pareto: cases
   std::string out;                // folder for tables and figures; empty: none
 };
@@ -26,7 +27,12 @@ struct Bench {
 };
 std::span<const Bench> benches();
 
+nlohmann::json bench_geometry(const BenchArguments& a);
 nlohmann::json bench_kernel(const BenchArguments& a);
+nlohmann::json bench_dem(const BenchArguments& a);
+nlohmann::json bench_pareto(const BenchArguments& a);
+nlohmann::json bench_skip(const BenchArguments& a);
+nlohmann::json bench_scaling(const BenchArguments& a);
 
 /// Writes rows as CSV: a header of the keys of the first row in alphabetical order; strings hold no commas.
 /// Throws std::runtime_error if it cannot be written.

@@ -19,6 +19,7 @@ json row_json(const bench::KernelRow& r) {
           {"mlups", r.mlups},
           {"bound_mlups", r.bound_mlups},
           {"fraction_of_bound", r.fraction_of_bound},
+          {"bare_fraction_of_bound", r.bare_fraction_of_bound},
           {"mlups_bare", r.mlups_bare},
           {"copy_gb_per_s", 1e-9 * r.copy_bandwidth},
           {"bound_over_copy", r.bound_over_copy},

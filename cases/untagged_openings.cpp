@@ -1,0 +1,41 @@
+#include "cases/untagged_openings.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+
+#include "lbm/geometry/surface_check.hpp"
+
+namespace puffin::cases {
+
+bool is_called_opening(const std::string& name) {
+  static const std::array<std::string, 10> words{"inlet", "outlet",     "inflow", "outflow", "opening",
+                                                 "mouth", "mouthpiece", "vent",   "port",    "exhaust"};
+  std::string word;
+  for (std::size_t i = 0; i <= name.size(); ++i) {
+    const auto c = i < name.size() ? static_cast<unsigned char>(name[i]) : static_cast<unsigned char>(' ');
+    if (std::isalpha(c)) {
+      word += static_cast<char>(std::tolower(c));
+      continue;
+    }
+    if (std::find(words.begin(), words.end(), word) != words.end()) return true;
+    word.clear();
+  }
+  return false;
+}
+
+void refuse_untagged_openings(const Case& c, const lbm::geometry::Patches& patches) {
+  if (c.air.model != AirModel::lbm) return;
+  std::string text;
+  for (const std::string& name : patches.names) {
+    const bool has_boundary = std::any_of(c.air.boundaries.begin(), c.air.boundaries.end(),
+                                          [&](const Boundary& b) { return b.patch == name || b.with == name; });
+    if (has_boundary || !is_called_opening(name)) continue;
+    text += (text.empty() ? "untagged opening: the patch '" : "\nuntagged opening: the patch '") + name +
+            "' has no [[air.boundary]] and would be a wall; give it one: patch = \"" + name +
+            "\", type = \"pressure-outlet\" or \"velocity-inlet\", or \"wall\" if it is meant to be closed";
+  }
+  if (!text.empty()) throw lbm::geometry::GeometryError(text);
+}
+
+}  // namespace puffin::cases

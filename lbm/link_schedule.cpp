@@ -1,0 +1,161 @@
+#include "lbm/link_schedule.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <tuple>
+
+#include "lbm/populations.hpp"
+
+namespace puffin::lbm {
+
+namespace {
+
+constexpr int long_run = group_unit;  // cells that fill a pack of any width
+
+/// Chunk of every run.
+std::vector<std::int32_t> chunk_of_runs(const Rows& rows) {
+  std::vector<std::int32_t> chunk(rows.runs().size());
+  for (std::size_t c = 0; c < rows.chunks().size(); ++c)
+    std::fill(chunk.begin() + rows.chunks()[c].first_run, chunk.begin() + rows.chunks()[c].last_run,
+              static_cast<std::int32_t>(c));
+  return chunk;
+}
+
+/// Run that holds an active slot: runs lie in memory in their order.
+std::size_t run_of(const Rows& rows, std::ptrdiff_t slot) {
+  const auto after = std::upper_bound(rows.runs().begin(), rows.runs().end(), slot,
+                                      [](std::ptrdiff_t s, const Run& run) { return s < run.first; });
+  return static_cast<std::size_t>(after - rows.runs().begin()) - 1;
+}
+
+struct Needs {
+  std::int32_t from = 0, last = 0;  // chunks
+};
+
+/// The chunks that cells [first, end) of a wall run read: their own, and those of the cells behind their near links.
+Needs needs_of(const Rows& rows, const std::vector<std::int32_t>& chunk, const WallRun& wall, int first, int end) {
+  const Run& run = rows.runs()[wall.run];
+  Needs needs{chunk[wall.run], chunk[wall.run]};
+  bool periodic = false;
+  for (std::uint32_t near = wall.directions & ~wall.far; near != 0; near &= near - 1) {
+    const std::ptrdiff_t back = neighbour_offset(run, d3q19::opposite(std::countr_zero(near)));
+    for (int n = first; n < end; ++n) {
+      const std::ptrdiff_t behind = wall.first + n + back;
+      if (rows.is_active(behind)) {
+        const std::int32_t other = chunk[run_of(rows, behind)];
+        needs.from = std::min(needs.from, other);
+        needs.last = std::max(needs.last, other);
+      } else {  // a solid cell has no weight; the image of an active one has its value after the periodic faces
+        const auto c = rows.cell(behind);
+        periodic = periodic || rows.active_slot(c[0], c[1], c[2]) >= 0;
+      }
+    }
+  }
+  if (periodic) needs.from = -1;
+  return needs;
+}
+
+/// A wall run or cell, and what it waits for.
+struct Item {
+  Needs needs;
+  const WallRun* wall;
+  int cell;  // within the wall run
+};
+
+bool before(const Item& a, const Item& b) {
+  const auto key = [](const Item& i) {
+    return std::tuple(i.needs.last, -i.needs.from, i.wall->directions, i.wall->far, i.wall->moving);
+  };
+  return key(a) < key(b);
+}
+
+/// Whether two cells can be of one group.
+bool alike(const Item& a, const Item& b) { return !before(a, b) && !before(b, a); }
+
+/// First of each chunk in a list ordered by chunk.
+template <class List, class ChunkOf>
+std::vector<std::size_t> first_of_chunks(const List& list, std::size_t chunks, const ChunkOf& chunk_of) {
+  std::vector<std::size_t> first(chunks + 1, list.size());
+  for (std::size_t c = 0, k = 0; c < chunks; ++c) {
+    while (k < list.size() && chunk_of(list[k]) < static_cast<std::int32_t>(c)) ++k;
+    first[c] = k;
+  }
+  return first;
+}
+
+void add_group(const Rows& rows, const Links& links, const std::vector<Item>& cells, std::size_t first, std::size_t end,
+               LinkSchedule& schedule) {
+  const WallRun& like = *cells[first].wall;
+  std::vector<Item> members(cells.begin() + static_cast<std::ptrdiff_t>(first),
+                            cells.begin() + static_cast<std::ptrdiff_t>(end));
+  while (members.size() % group_unit != 0) members.push_back(members.back());
+  schedule.groups.push_back({static_cast<std::int32_t>(members.size()), like.directions, like.far, like.moving,
+                             schedule.places.size(), schedule.partner.size()});
+  const auto put_places = [&](int direction) {
+    for (const Item& item : members) {
+      const WallRun& wall = *item.wall;
+      const std::ptrdiff_t slot = wall.first + item.cell;
+      schedule.places.push_back(static_cast<std::int32_t>(slot + neighbour_offset(rows.runs()[wall.run], direction)));
+    }
+  };
+  put_places(0);
+  int link = 0;
+  for (std::uint32_t bits = like.directions; bits != 0; bits &= bits - 1, ++link) {
+    const int i = std::countr_zero(bits);
+    put_places(i);
+    put_places(d3q19::opposite(i));
+    for (const Item& item : members) {
+      const WallRun& wall = *item.wall;
+      const std::size_t at = wall.coefficient + static_cast<std::size_t>(link) * wall.count + item.cell;
+      schedule.partner.push_back(links.partner[at]);
+      if (!links.moving.empty()) schedule.moving.push_back(links.moving[at]);
+    }
+  }
+}
+
+}  // namespace
+
+Waiting::Range Waiting::ready(int chunk, int begin) const {
+  const auto from = needs_from.begin();
+  const auto late = std::partition_point(from + static_cast<std::ptrdiff_t>(first[chunk]),
+                                         from + static_cast<std::ptrdiff_t>(first[chunk + 1]),
+                                         [begin](std::int32_t needed) { return needed >= begin; });
+  return {first[chunk], static_cast<std::size_t>(late - from)};
+}
+
+LinkSchedule schedule_links(const Rows& rows, const Links& links) {
+  const std::vector<std::int32_t> chunk = chunk_of_runs(rows);
+  const std::size_t chunks = rows.chunks().size();
+  std::vector<Item> runs, cells;
+  for (const WallRun& wall : links.walls) {
+    if (wall.count >= long_run) {
+      runs.push_back({needs_of(rows, chunk, wall, 0, wall.count), &wall, 0});
+      continue;
+    }
+    for (int n = 0; n < wall.count; ++n) cells.push_back({needs_of(rows, chunk, wall, n, n + 1), &wall, n});
+  }
+  std::stable_sort(runs.begin(), runs.end(), before);
+  std::stable_sort(cells.begin(), cells.end(), before);
+
+  LinkSchedule schedule;
+  for (const Item& item : runs) {
+    schedule.runs.push_back(*item.wall);
+    schedule.waiting_runs.needs_from.push_back(item.needs.from);
+  }
+  const auto last_of = [](const Item& item) { return item.needs.last; };
+  schedule.waiting_runs.first = first_of_chunks(runs, chunks, last_of);
+  std::vector<Item> group_first;
+  for (std::size_t first = 0, end = 0; first < cells.size(); first = end) {
+    while (end < cells.size() && alike(cells[first], cells[end])) ++end;
+    add_group(rows, links, cells, first, end, schedule);
+    schedule.waiting_groups.needs_from.push_back(cells[first].needs.from);
+    group_first.push_back(cells[first]);
+  }
+  schedule.waiting_groups.first = first_of_chunks(group_first, chunks, last_of);
+  const auto chunk_of_link = [&](const OpeningLink& link) { return chunk[link.run]; };
+  schedule.inlets = first_of_chunks(links.inlets, chunks, chunk_of_link);
+  schedule.outlets = first_of_chunks(links.outlets, chunks, chunk_of_link);
+  return schedule;
+}
+
+}  // namespace puffin::lbm

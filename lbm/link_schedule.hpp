@@ -1,0 +1,46 @@
+#pragma once
+// When each link can be applied: with its cells still in the cache, and beside others like it.
+//
+// A sweep goes through the chunks of cells in order. The links of a cell need what this cell, and for a wall near it
+// the cell behind, have sent out; so they can be applied as soon as the chunks of both are collided, long before the
+// whole sweep is. A second pass over the cells at walls, with its wait for memory, is saved. Wall cells that have no
+// row of their like are gathered into groups. The order changes no bit: a link writes a place of its own that no other
+// link and no collision of the same step reads.
+
+#include <cstdint>
+#include <vector>
+
+#include "lbm/links.hpp"
+#include "lbm/rows.hpp"
+
+namespace puffin::lbm {
+
+/// Things that wait for chunks.
+struct Waiting {
+  /// Per chunk, and one more: the first that waits for this chunk as the last. Within a chunk's part come first those
+  /// that need no earlier chunk.
+  std::vector<std::size_t> first;
+  std::vector<std::int32_t> needs_from;  // the earliest chunk that each needs; -1: periodic faces
+
+  struct Range {
+    std::size_t first, end;
+  };
+  /// Those that can be done right after `chunk`, when the chunks from `begin` on are collided.
+  Range ready(int chunk, int begin) const;
+  /// The others that wait for `chunk`.
+  Range late(int chunk, int begin) const { return {ready(chunk, begin).end, first[chunk + 1]}; }
+};
+
+struct LinkSchedule {
+  std::vector<WallRun> runs;  // long ones, with the coefficients of Links
+  Waiting waiting_runs;
+  std::vector<WallGroup> groups;  // all other wall cells
+  Waiting waiting_groups;
+  std::vector<std::int32_t> places;          // of the cells of groups: see WallGroup
+  std::vector<float> partner, moving;        // of the cells of groups, as those of Links
+  std::vector<std::size_t> inlets, outlets;  // per chunk, and one more: first link
+};
+
+LinkSchedule schedule_links(const Rows& rows, const Links& links);
+
+}  // namespace puffin::lbm
