@@ -13,6 +13,7 @@
 #include "cases/point_field.hpp"
 #include "cases/table_file.hpp"
 #include "lbm/geometry/voxel_errors.hpp"
+#include "lbm/markers.hpp"
 
 namespace puffin::cases {
 
@@ -120,6 +121,7 @@ void build_lattice(const LatticeNumbers& numbers, Simulation& s) {
   air.law = law_of(c.numerics.collision);
   // A frozen field has no walls that act on the air: only the cells of the fluid are wanted.
   air.wall = s.models.frozen_air ? lbm::WallScheme::bouzidi : wall_of(c.numerics.wall);
+  air.markers.retraction = lbm::retraction_for(numbers.tau);
   air.wall_model = c.numerics.wall_model && !s.models.frozen_air;
   air.double_precision = c.numerics.precision == Precision::float64;
   air.smagorinsky = c.numerics.les == Les::none ? 0.0 : c.numerics.smagorinsky_constant;

@@ -85,6 +85,9 @@ Air make_air(const geometry::Voxels& voxels, const LinkGeometry& surface, const 
     for (int n = 0; n < air.rows.runs()[r].count; ++n)
       air.run_of_slot[air.rows.runs()[r].first + n] = static_cast<std::int32_t>(r);
   air.les = eddy_lengths(air.rows, surface, options);
+  if (air.markers)  // the band is not turbulent air: decision 0007
+    for (std::size_t s = 0; s < slots; ++s)
+      if (!air.is_fluid(static_cast<std::ptrdiff_t>(s))) air.les[s] = 0.0F;
   std::vector<float> length2;
   if (options.eddy == Eddy::vreman && options.smagorinsky > 0.0) {
     length2.assign(slots, 0.0F);

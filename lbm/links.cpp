@@ -111,7 +111,11 @@ class CutFinder {
   /// A thin wall lies between two computed cells.
   bool parted(std::ptrdiff_t a, std::ptrdiff_t b) const {
     const WallPlace *at_a = kinds_.sides->of(a), *at_b = kinds_.sides->of(b);
-    return at_a != nullptr && at_b != nullptr && kinds_.sides->parted(*at_a, *at_b);
+    if (at_a == nullptr || at_b == nullptr) return false;
+    // Projection on one wall brings neighbours no further apart; behind outer edges normals alone would not tell.
+    const bool both_behind = !is_fluid(a) && !is_fluid(b);
+    if (both_behind && kinds_.sides->apart(*at_a, *at_b).norm() > 1.5 * rows_.dx()) return true;
+    return kinds_.sides->parted(*at_a, *at_b);
   }
   std::int16_t patch_near(std::ptrdiff_t slot) const {
     const WallPlace* place = kinds_.sides->of(slot);

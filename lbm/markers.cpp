@@ -117,7 +117,9 @@ Weights transposed(const Weights& rows, std::size_t columns) {
 
 }  // namespace
 
-MarkerOptions::MarkerOptions() : spacing(1.3), retraction(0.6) {}
+MarkerOptions::MarkerOptions() : spacing(1.3), retraction(retraction_for(0.5)) {}
+
+double retraction_for(double tau0) { return std::clamp(0.9 - 0.3 * (tau0 - 0.51) / 0.09, 0.6, 0.9); }
 
 double roma_kernel(double r) {
   const double a = std::abs(r);

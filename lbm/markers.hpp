@@ -58,6 +58,10 @@ struct Markers {
 /// The kernel of Roma, Peskin & Berger, of a distance in cells.
 double roma_kernel(double r);
 
+/// The retraction [cells] with which laminar walls lie where they are: 0.9 where tau0 <= 0.51, 0.6 from 0.6 on, linear
+/// between (measured: docs/decisions/0007-walls.md).
+double retraction_for(double tau0);
+
 /// Places markers on all walls. Throws std::runtime_error if a wall got none.
 Markers place_markers(const Rows& rows, const WallSides& sides, const LinkGeometry& surface,
                       const MarkerOptions& options);

@@ -4,7 +4,7 @@
 
 namespace puffin::lbm {
 
-const double psm_least_tau = 0.6;
+const double psm_least_tau = 0.51;
 
 PartialCells find_partial_cells(const Rows& rows, const ActiveCells& cells, const LinkGeometry& surface,
                                 bool double_precision) {

@@ -53,12 +53,15 @@ WallSides::WallSides(const Rows& rows, const LinkGeometry& surface, double reach
   }
 }
 
-bool WallSides::parted(const WallPlace& a, const WallPlace& b) const {
-  if (a.normal.dot(b.normal) > -0.3) return false;
+Vec3 WallSides::apart(const WallPlace& a, const WallPlace& b) const {
   Vec3 apart = b.point - a.point;
   for (int d = 0; d < 3; ++d)
     if (period_[d] > 0.0) apart[d] -= period_[d] * std::round(apart[d] / period_[d]);
-  return apart.dot(a.normal) > 0.0;
+  return apart;
+}
+
+bool WallSides::parted(const WallPlace& a, const WallPlace& b) const {
+  return a.normal.dot(b.normal) <= -0.3 && apart(a, b).dot(a.normal) > 0.0;
 }
 
 }  // namespace puffin::lbm

@@ -33,6 +33,8 @@ class WallSides {
   }
   /// A thin wall lies between a cell (or marker) whose wall is `a` and one whose wall is `b`.
   bool parted(const WallPlace& a, const WallPlace& b) const;
+  /// From the wall point of `a` to that of `b`, the short way across periodic faces [m].
+  geometry::Vec3 apart(const WallPlace& a, const WallPlace& b) const;
 
  private:
   std::vector<std::int32_t> index_;  // by slot

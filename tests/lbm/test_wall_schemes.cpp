@@ -18,8 +18,9 @@ using geometry::Vec3;
 
 namespace {
 
-AirOptions laminar(WallScheme wall) {
+AirOptions laminar(WallScheme wall, double tau = 0.8) {
   AirOptions options;
+  options.markers.retraction = retraction_for(tau);
   options.wall = wall;
   options.smagorinsky = 0.0;
   options.double_precision = true;
@@ -31,7 +32,7 @@ struct Channel {
   Channel(WallScheme wall, double height, double offset, double tau) : tau(tau) {
     scene = make_box(Vec3(4, height, 4), 1.0,
                      {periodic(), periodic(), test::wall(), test::wall(), periodic(), periodic()}, Vec3(0, offset, 0));
-    air = make_air(scene, laminar(wall));
+    air = make_air(scene, laminar(wall, tau));
     nu = (tau - 0.5) / 3.0;
     force = 8.0 * nu * 0.05 / (height * height);
     drive = at_rest(air);
@@ -94,7 +95,7 @@ const WallScheme cell_schemes[] = {WallScheme::psm, WallScheme::ibm};
 TEST(SolidWeight, RunsFromNoneInFluidToAllInSolidAndIsNobleAndTorczynskis) {
   EXPECT_EQ(solid_weight(0.0, 0.7), 0.0);
   EXPECT_DOUBLE_EQ(solid_weight(1.0, 0.7), 1.0);
-  EXPECT_DOUBLE_EQ(solid_weight(0.5, 1.0), 0.5);  // eps/2 / (1/2 + 1/2)
+  EXPECT_DOUBLE_EQ(solid_weight(0.5, 1.0), 0.25);  // eps/2 / (1/2 + 1/2)
 }
 
 // Roma, Peskin & Berger (1999), the three conditions that define the kernel.
