@@ -83,14 +83,18 @@ void describe_contact(Fields& io, Contact& c, const Contact* base) {
 
 /// One value, or { median, sigma }: log-normal over the carriers.
 void describe_surface_energy(Fields& io, Adhesion& a, Fallback<double> gamma, double base_sigma) {
-  if (io.shape("surface_energy", a.sigma > 0.0 ? Shape::table : Shape::number) != Shape::table) {
+  const Shape shape = io.shape("surface_energy", a.sigma > 0.0 ? Shape::table : Shape::number);
+  const bool inherited = shape == Shape::absent && base_sigma > 0.0;  // a distribution, with the origin of both numbers
+  if (shape != Shape::table && !inherited) {
     io.number("surface_energy", a.surface_energy, unit::surface_energy, Range::non_negative, gamma);
-    if (io.reading()) a.sigma = io.has("surface_energy", true) ? 0.0 : base_sigma;
+    if (io.reading()) a.sigma = 0.0;
     return;
   }
+  Fallback<double> sigma;
+  if (inherited) sigma = derived(base_sigma, as_carriers);
   io.section("surface_energy", [&](Fields& t) {
-    t.number("median", a.surface_energy, unit::surface_energy, Range::positive, required);
-    t.number("sigma", a.sigma, unit::number, Range::non_negative, required);
+    t.number("median", a.surface_energy, unit::surface_energy, Range::positive, gamma);
+    t.number("sigma", a.sigma, unit::number, Range::non_negative, sigma);
     if (a.sigma > 3.0) t.problem("sigma", "is the deviation of ln(surface_energy); at most 3, e.g. 0.5");
   });
 }
