@@ -115,7 +115,10 @@ void reflect_group(const WallInput<T>& in, const WallGroup& group) {
                    even ? slot : beyond, own ? slot : behind, even ? beyond : slot};
   }
   const P speed(static_cast<T>(in.wall_speed));
-  for (int n = 0; n < count; n += static_cast<int>(P::size())) {
+  // Packs of nothing but the repeated last cell are left out: it takes its imbalance once.
+  int cells = count;
+  while (cells > 1 && slot[cells - 1] == slot[cells - 2]) --cells;
+  for (int n = 0; n < cells; n += static_cast<int>(P::size())) {
     P imbalance(T(0));
     const float* partner = in.group_partner + group.coefficient + n;
     for (int k = 0; k < links; ++k) {
