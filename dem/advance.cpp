@@ -74,8 +74,6 @@ void commit(const Rules& rules, Cluster& cluster, State& state, Events& events) 
   events.begun.insert(events.begun.end(), cluster.begun.begin(), cluster.begun.end());
   events.ended.insert(events.ended.end(), cluster.ended.begin(), cluster.ended.end());
   state.statistics.contact_steps += cluster.body_steps;
-  state.statistics.looks += cluster.looks;
-  state.statistics.looks_saved += cluster.looks_saved;
   state.statistics.largest_overlap = std::max(state.statistics.largest_overlap, cluster.largest_overlap);
 }
 

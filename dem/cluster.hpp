@@ -30,23 +30,20 @@ struct Rules {
         integration(models.integration) {}
 };
 
-/// One carrier of a cluster. What every sub-step reads stands first.
+/// One carrier of a cluster.
 struct Body {
-  Eigen::Vector3d x, v, w;                           // [m], [m/s], [rad/s]
-  double inverse_mass = 0.0, inverse_inertia = 0.0;  // 0 if fixed (or without rotation)
-  double radius = 0.0;
-  Eigen::Vector3d kick, twist;  // half-step changes, so that v + kick is the velocity at the step's end
-  Eigen::Vector3d push, turn;   // acceleration by drag and steady forces, by the load's torque [m/s^2], [rad/s^2]
-  double contact_step = 0.0;    // t_c/steps_per_contact of its stiffest live contact, when last looked at [s]
-  std::int32_t carrier = -1;    // place in State
+  std::int32_t carrier = -1;  // place in State
   std::int64_t id = -1;
   bool fixed = false;      // does not move: asleep, stuck or held
   bool sleeper = false;    // fixed because asleep: watches the force on it
   bool disturbed = false;  // a sleeper that must wake
   bool stuck = false;      // came to hold to a wall in this step
-  double single_radius = 0.0, single_mass = 0.0, mass = 0.0;
-  Eigen::Vector3d acceleration;   // by contacts, drag and steady forces, when all were last evaluated [m/s^2]
-  Eigen::Vector3d force, torque;  // of the contacts, when all were last evaluated [N], [N m]
+  double radius = 0.0, single_radius = 0.0, single_mass = 0.0, mass = 0.0;
+  double inverse_mass = 0.0, inverse_inertia = 0.0;  // 0 if fixed (or without rotation)
+  Eigen::Vector3d x, v, w;                           // [m], [m/s], [rad/s]
+  Eigen::Vector3d acceleration, turning;             // of the last force evaluation [m/s^2], [rad/s^2]
+  Eigen::Vector3d kick, twist;               // half-step changes, so that v + kick is the velocity at the step's end
+  Eigen::Vector3d force, torque;             // of the contacts [N], [N m]
   Eigen::Vector3d drag_force, drag_impulse;  // [N], [N s]
   Eigen::Vector3d steady;                    // load force and weight [N]
   Load load;
@@ -69,17 +66,9 @@ struct Touch {
   double eta = 0.0, eta_pull = 0.0, eta_slip = 0.0;      // dashpots [kg/s]
   double spring_force = 0.0, dashpot_force = 0.0;        // normal, at the last evaluation [N]
   Eigen::Vector3d slip_force = Eigen::Vector3d::Zero();  // tangential, on a [N]
-  Eigen::Vector3d torque_a = Eigen::Vector3d::Zero(), torque_b = Eigen::Vector3d::Zero();  // [N m]
-  double step = 0.0;          // its own: the present one if live, else how long it may be left alone [s]
-  double contact_step = 0.0;  // t_c/steps_per_contact if live [s]
-  double planned = 0.0;       // time from its last evaluation to the next one [s]
-  double elapsed = 0.0;       // between the last two evaluations [s]
-  double looked_at = -std::numeric_limits<double>::infinity();  // time of its last evaluation [s]
-  int level = 0;                                                // looked at in every 2^level-th tick of the cluster
   WallPlane plane;
   std::int32_t next_wall = -1;
   double idle_until = 0.0, latest = 0.0;  // a candidate need not be looked at before, but must be by then [s]
-  bool live() const { return memory.phase != ContactPhase::free; }
 };
 
 struct Cluster {
@@ -88,16 +77,11 @@ struct Cluster {
   std::vector<Touch> touches;
   std::vector<ContactBegun> begun;
   std::vector<ContactEnded> ended;
-  double fastest = 0.0;                     // speed of the fastest body at the last evaluation [m/s]
-  std::int64_t body_steps = 0;              // moving bodies times sub-steps of the fastest contact
-  std::int64_t looks = 0, looks_saved = 0;  // touches evaluated; that would have been at the fastest contact's step too
-  double largest_overlap = 0.0;             // part of the (smaller) diameter
-  bool disturbed = false;                   // a sleeper must wake: the result is worthless
+  double fastest = 0.0;          // speed of the fastest body at the last evaluation [m/s]
+  std::int64_t body_steps = 0;   // moving bodies times sub-steps
+  double largest_overlap = 0.0;  // part of the (smaller) diameter
+  bool disturbed = false;        // a sleeper must wake: the result is worthless
   std::vector<WallTouch> scratch;
-  std::vector<std::vector<std::int32_t>> due;  // touches by level
-  std::vector<std::int32_t> due_now;
-  std::vector<std::int32_t> beside_begin, beside;  // touches of each body, made when wanted
-  std::size_t beside_of = 0;                       // number of touches when it was made
   void clear();
 };
 
@@ -113,16 +97,8 @@ void match_walls(std::int32_t b, double time, const Rules& rules, Cluster& clust
 
 /// Moves the bodies over `duration` [s] from `time`. Velocity Verlet (kick, drift, kick) with forces at the predicted
 /// end velocity (second order also with dashpots and drag); a contact that begins or ends within a sub-step counts for
-/// its part of it; while nothing touches, the closed form of free flight up to the next touch.
-///
-/// Each contact has a sub-step of its own, at most its t_c/steps_per_contact: a stiff impact does not make the soft
-/// contacts around it dear. Bodies drift in ticks of the shortest; a contact is evaluated, and kicks its two bodies, in
-/// every 2^level-th tick; drag, sleepers and walls are looked at when all levels meet, at the latest after 16
-/// ticks (impulse multiple time stepping: Tuckerman, Berne & Martyna, J. Chem. Phys. 97, 1990 (1992), by contact).
-/// A soft contact kicks a body at least five times in the contact time of the stiffest on it: a force F that comes in
-/// kicks every h shakes a contact of frequency w = pi/t_c by F (w h)^2/24, here 1.6 %.
-/// A pair that does not touch yet is looked at twice in each step of the contacts that may push it, and at
-/// once when its carriers are hit. Stops early if a sleeper is disturbed.
+/// its part of it; while nothing touches, the closed form of free flight up to the next touch. The sub-step is at most
+/// t_c/steps_per_contact of each live contact. Stops early if a sleeper is disturbed.
 void integrate(double time, double duration, const Rules& rules, const Walls& walls, Cluster& cluster);
 
 }  // namespace puffin::dem

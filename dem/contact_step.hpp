@@ -6,7 +6,7 @@
 namespace puffin::dem {
 
 /// Evaluates touch `index` at the bodies' positions and end velocities (v + kick), after a sub-step h [s] that ended at
-/// `time`: renews its forces (Contact::force on a, torques), moves its springs, and makes it begin, bond or end.
+/// `time`: adds its forces to the bodies, moves its springs, and makes it begin, bond or end.
 /// h = 0: the forces of the present state.
 /// Returns the largest next sub-step [s] that this touch allows, infinity if it does not care. `horizon` [s]: times
 /// beyond it need not be told apart. `live` becomes true if the touch carries forces.

@@ -25,7 +25,7 @@ Body body_of(std::int32_t i, const Rules& rules, const Load& load, const State& 
   body.x = body.start = all.position[i];
   body.v = body.course = body.fixed ? Vector3d(Vector3d::Zero()) : all.velocity[i];
   body.w = body.fixed ? Vector3d(Vector3d::Zero()) : all.spin[i];
-  body.kick = body.twist = body.push = body.turn = body.drag_impulse = body.imbalance = Vector3d::Zero();
+  body.kick = body.twist = body.turning = body.drag_impulse = body.imbalance = Vector3d::Zero();
   body.force = body.torque = Vector3d::Zero();
   body.load = load;
   body.steady = load.force + body.mass * rules.gravity;
