@@ -16,8 +16,7 @@ namespace fs = std::filesystem;
 /// A modulus whose Hertz contact lasts about as long as the scene's linear one: the step is as safe for it.
 constexpr double modulus = 5e6;  // [Pa]
 
-/// A skin that lasts about a hundred steps at the scene's speeds, at least a tenth of the diameter: tried from 0.1 to 4
-/// diameters, this is near LIGGGHTS's best for both scenes.
+/// A skin that lasts about a hundred steps at the scene's speeds, at least a tenth of the diameter.
 double skin(const DemScene& scene) {
   double fastest = 0.0;
   for (const dem::Carrier& c : scene.carriers) fastest = std::max(fastest, c.velocity.norm());

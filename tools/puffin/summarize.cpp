@@ -127,10 +127,6 @@ output::CollisionSummary collisions(const cases::Simulation& s) {
   return c;
 }
 
-/// Part of the carriers' time that goes into looking at contacts: 0.40 by a profile of a dense bed that is blown along
-/// (docs/results/carriers).
-constexpr double looks_share = 0.40;
-
 std::vector<output::SkippedWork> skipped(const cases::Simulation& s) {
   std::vector<output::SkippedWork> list;
   const auto& e = s.state.effort;
@@ -157,9 +153,6 @@ std::vector<output::SkippedWork> skipped(const cases::Simulation& s) {
     list.push_back({"steps of sleeping carriers", d.sleeping_steps,
                     moved > 0.0 ? static_cast<double>(d.sleeping_steps) * e.carriers / moved : 0.0});
   }
-  if (d.looks_saved > 0)
-    list.push_back({"looks at contacts that need no step as short as the fastest of their cluster", d.looks_saved,
-                    static_cast<double>(d.looks_saved) * looks_share * e.carriers / static_cast<double>(d.looks)});
   if (e.scalar_steps_off > 0)
     list.push_back({"transport of fines before the first release", e.scalar_steps_off,
                     e.scalar_steps > 0
