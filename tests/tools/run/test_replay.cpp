@@ -24,7 +24,7 @@ class Replay : public SmallDose {
 
 // Two carriers of fines add and subtract the same numbers in the same order: rounding alone, far below 1e-9.
 TEST_F(Replay, TheRunsOwnConstantsReturnItsResults) {
-  ASSERT_EQ(run("out", ""), 0) << text("out.log");
+  ASSERT_EQ(run("out", "--set stop.time='14 ms'"), 0) << text("out.log");  // until walls are hit hard
   ASSERT_EQ(puffin("replay out --micromodels lactose-3.6e-3.toml --json", "own.json"), 0) << text("own.json.log");
   const json own = json::parse(text("own.json"));
   const output::Summary summary = output::read_summary(folder_ / "out" / "summary.json");
@@ -47,15 +47,15 @@ TEST_F(Replay, TheRunsOwnConstantsReturnItsResults) {
   // The constants that the run had are found again from its outcome: a start 1.5 times too high, two targets.
   ASSERT_EQ(puffin("micromodel fit --calibrate out --micromodels lactose-3.6e-3.toml --free wall_detach.surface_energy "
                    "--free wall_attach.A3 --target FFCR=" +
-                       std::to_string(0.999) + " --target FFW=0.0001 --json --out c.toml",
+                       std::to_string(0.99) + " --target FFW=0.0004 --json --out c.toml",
                    "c.json"),
             0)
       << text("c.json.log");
   const json c = json::parse(text("c.json"));
-  EXPECT_NEAR(c.at("targets")[0].at("fitted").get<double>(), 0.999, 1e-5);
-  EXPECT_NEAR(c.at("targets")[1].at("fitted").get<double>(), 0.0001, 1e-6);
+  EXPECT_NEAR(c.at("targets")[0].at("fitted").get<double>(), 0.99, 1e-5);
+  EXPECT_NEAR(c.at("targets")[1].at("fitted").get<double>(), 0.0004, 1e-6);
   ASSERT_EQ(puffin("replay out --micromodels c.toml --json", "c2.json"), 0) << text("c2.json.log");
-  EXPECT_NEAR(json::parse(text("c2.json")).at("fines").at(f.name).at("FFCR").get<double>(), 0.999, 1e-5);
+  EXPECT_NEAR(json::parse(text("c2.json")).at("fines").at(f.name).at("FFCR").get<double>(), 0.99, 1e-5);
 
   std::ofstream(folder_ / "bad.toml") << "label = \"given\"\n[wall_detach]\nlaw = \"powr\"\n";
   EXPECT_EQ(puffin("replay out --micromodels bad.toml", "bad"), 3);
