@@ -7,7 +7,6 @@ set(PUFFIN_BUILD_SOURCES
   check_boundaries.cpp
   check_tables.cpp
   initial_air.cpp
-  initial_disturbance.cpp
   inlet_profile.cpp
   opening.cpp
   point_field.cpp

@@ -8,7 +8,6 @@
 #include "cases/check_boundaries.hpp"
 #include "cases/derived.hpp"
 #include "cases/initial_air.hpp"
-#include "cases/initial_disturbance.hpp"
 #include "cases/opening.hpp"
 #include "cases/point_field.hpp"
 #include "cases/table_file.hpp"
@@ -64,13 +63,10 @@ std::function<Vec3(double)> body_force(const Case& c) {
 /// Equilibrium of the initial velocity and pressure with the stress of its gradients (central differences over a cell),
 /// so that no layer of wrong stress has to decay: Pi = -2/3 tau S in lattice units.
 void set_initial_air(Simulation& s) {
-  const Vec3 box = s.tree->max() - s.tree->min();
-  auto start =
-      from_file(s.description, "air.initial", [&] { return initial_air(s.description.air, s.tree->min(), box); });
-  const auto disturbance =
-      initial_disturbance(s.description, s.reference_speed, s.dx, box, periodic_directions(s.description, s.surface));
-  if (!start && !disturbance) return;
-  if (!start) start = InitialAir{[](const Vec3&) -> Vec3 { return Vec3::Zero(); }, [](const Vec3&) { return 0.0; }};
+  const auto start = from_file(s.description, "air.initial", [&] {
+    return initial_air(s.description.air, s.tree->min(), s.tree->max() - s.tree->min());
+  });
+  if (!start) return;
   const coupling::Scale& scale = s.state.scale;
   const double tau = scale.relaxation_time(s.models.air.viscosity / s.models.air.density);
   lbm::set_cells(
@@ -82,10 +78,6 @@ void set_initial_air(Simulation& s) {
           const Vec3 half = 0.5 * s.dx * Vec3::Unit(d);
           gradient.col(d) = (start->velocity(x + half) - start->velocity(x - half)) * scale.dt / s.dx;
           cell.velocity[d] = scale.velocity_lu(u[d]);
-        }
-        if (disturbance) {
-          const Vec3 more = disturbance(x);
-          for (int d = 0; d < 3; ++d) cell.velocity[d] += scale.velocity_lu(more[d]);
         }
         const int pairs[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}};
         for (int k = 0; k < 6; ++k)

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -58,7 +59,15 @@ class BatchStudy : public ::testing::Test {
     fs::create_directories(folder_);
     file("case.toml", duct);
   }
-  void TearDown() override { fs::remove_all(folder_); }
+  /// Runs whose batch was killed may still be writing their last checkpoint.
+  void TearDown() override {
+    std::error_code busy;
+    for (int n = 0; n < 100; ++n) {
+      fs::remove_all(folder_, busy);
+      if (!busy) return;
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    }
+  }
   void file(const std::string& name, const std::string& text) const { std::ofstream(folder_ / name) << text; }
   std::string text(const std::string& name) const {
     std::ifstream stream(folder_ / name);
