@@ -9,6 +9,8 @@
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <system_error>
+#include <thread>
 
 #include "tests/tools/run/small_dose.hpp"
 #include "tools/output/csv_file.hpp"
