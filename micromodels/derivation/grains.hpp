@@ -97,7 +97,7 @@ class GrainSystem {
     int a, b;  // b = -1: wall
     PairContact law;
     Vector3d spring = Vector3d::Zero();
-    Flattened flattened;
+    Flattened flattened{};
   };
   double dent(int a, int b) const;  // overlap at which a contact that has yielded parts [m]
   void find_pairs();
