@@ -31,13 +31,27 @@ std::span<const Bench> benches() {
   return list;
 }
 
+namespace {
+
+/// A field of a CSV file: in quotes where it holds a comma, a quote or a line's end.
+std::string field(const json& value) {
+  if (!value.is_string()) return value.dump();
+  const std::string text = value.get<std::string>();
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
+  return quoted + "\"";
+}
+
+}  // namespace
+
 void write_rows(const json& rows, const std::string& file) {
   std::ofstream out(file);
   for (std::size_t r = 0; r < rows.size(); ++r) {
     std::string header, line;
     for (const auto& [key, value] : rows[r].items()) {
       header += (header.empty() ? "" : ",") + key;
-      line += (line.empty() ? "" : ",") + (value.is_string() ? value.get<std::string>() : value.dump());
+      line += (line.empty() ? "" : ",") + field(value);
     }
     if (r == 0) out << header << '\n';
     out << line << '\n';

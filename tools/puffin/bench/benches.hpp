@@ -35,7 +35,7 @@ nlohmann::json bench_pareto(const BenchArguments& a);
 nlohmann::json bench_skip(const BenchArguments& a);
 nlohmann::json bench_scaling(const BenchArguments& a);
 
-/// Writes rows as CSV: a header of the keys of the first row in alphabetical order; strings hold no commas.
+/// Writes rows as CSV: a header of the keys of the first row in alphabetical order; texts with commas in quotes.
 /// Throws std::runtime_error if it cannot be written.
 void write_rows(const nlohmann::json& rows, const std::string& file);
 
