@@ -77,7 +77,7 @@ std::string labels(const std::vector<ScatterSeries>& series, const LogAxis& x, c
     for (const auto& p : s.points)
       if (drawable(p) && !p.label.empty()) {
         const bool left_of = x.pixel(p.x) + 12 + 6.2 * static_cast<double>(p.label.size()) > width - right;
-        list.push_back({x.pixel(p.x) + (left_of ? -9 : 9), y.pixel(p.y) + 4, left_of, p.label});
+        list.push_back({x.pixel(p.x) + (left_of ? -9 : 9), y.pixel(p.y) - 7, left_of, p.label});
       }
   std::sort(list.begin(), list.end(), [](const Label& a, const Label& b) { return a.y < b.y; });
   std::string out;
