@@ -50,11 +50,11 @@ void write_rows(const json& rows, const std::string& file) {
   for (std::size_t r = 0; r < rows.size(); ++r) {
     std::string header, line;
     for (const auto& [key, value] : rows[r].items()) {
-      header += (header.empty() ? "" : ",") + key;
-      line += (line.empty() ? "" : ",") + field(value);
+      header += "," + key;
+      line += "," + field(value);
     }
-    if (r == 0) out << header << '\n';
-    out << line << '\n';
+    if (r == 0) out << header.substr(1) << '\n';  // less the first comma
+    out << line.substr(1) << '\n';
   }
   out.flush();
   if (!out) throw std::runtime_error("cannot write " + file);
