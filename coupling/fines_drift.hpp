@@ -20,7 +20,7 @@ double response_time(double diameter, double density, double viscosity);
 
 /// Velocity of fines of small inertia: u_f = u - tau Du/Dt + tau g, to first order in tau.
 /// Source: J. Ferry & S. Balachandar, Int. J. Multiph. Flow 27, 1199 (2001). Valid for Stokes numbers (tau over the
-/// time in which the air turns) below about 0.2: docs/fines.md has the errors beyond, against single fines.
+/// time in which the air turns) below about 0.2: the errors beyond have not been measured.
 ///
 /// On the lattice Du/Dt is taken as -grad p/rho, which differs by the viscous force alone: in the boundary layer of a
 /// wall, where the air stops, grad p is still that of the flow outside, and so is the drift. Fines cross such layers
