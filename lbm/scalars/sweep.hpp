@@ -74,7 +74,9 @@ struct SweepKernel {
 
 /// The same arithmetic, compiled for several processors: equal bits.
 SweepKernel baseline_sweep();
-SweepKernel avx2_sweep();  // null functions where the build does not contain it
+// Null functions where the build does not contain them.
+SweepKernel avx2_sweep();
+SweepKernel avx512_sweep();
 /// The best that this processor offers.
 SweepKernel select_sweep();
 
