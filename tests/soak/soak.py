@@ -39,9 +39,9 @@ def cpu_seconds(process: int) -> float:
 
 
 def history(run: Path) -> list[dict]:
-    """Whole rows alone: the last line may be in the making."""
-    lines = (run / "history.csv").read_text().split("\n")[:-1]
-    return list(csv.DictReader(lines))
+    """Whole rows alone: the last line may be in the making, or the first."""
+    file = run / "history.csv"
+    return list(csv.DictReader(file.read_text().split("\n")[:-1])) if file.exists() else []
 
 
 def masses(run: Path) -> list[tuple[float, float]]:
@@ -69,7 +69,7 @@ def watch(program: str, run: Path, minutes: float) -> tuple[int, list[list[float
             time.sleep(max(0.0, begin + 60.0 * (len(rows) + 1) - time.monotonic()))
             if child.poll() is not None:
                 break
-            last = history(run)[-1]
+            last = (history(run) or [{"time": "0", "in_air": "nan", "ledger_error": "nan"}])[-1]
             rows.append([len(rows) + 1, round(resident(child.pid), 2), cpu_seconds(child.pid), float(last["time"]),
                          float(last["in_air"]), float(last["ledger_error"])])
             table.writerow(rows[-1])
