@@ -21,7 +21,7 @@ import numpy
 import vtk
 from vtk.util.numpy_support import vtk_to_numpy
 
-RHO, DX, LID, LATTICE_SPEED = 1.204, 0.2e-3, 30.0, 0.1  # of soak.toml
+RHO, LID, LATTICE_SPEED = 1.204, 10.0, 0.1  # of soak.toml
 SOUND2 = (LID / LATTICE_SPEED) ** 2 / 3.0  # [m^2/s^2] p = c_s^2 (rho - rho0)
 
 
