@@ -31,6 +31,10 @@ std::uint64_t hash_of_outputs(const fs::path& run) {
 
 class Determinism : public SmallDose {
  protected:
+  void SetUp() override {
+    SmallDose::SetUp();
+    std::ofstream(folder_ / "case.toml") << coarse_dose();
+  }
   void TearDown() override {
     unsetenv("PUFFIN_ISA");
     SmallDose::TearDown();
