@@ -25,7 +25,7 @@ def part(program: Path, found: Path, corpus: Path, longest: int, seconds: float)
     """One run of libFuzzer: processor time [s], what it printed, exit code."""
     with open(found / "log", "w+", encoding="utf-8", errors="replace") as log:
         child = subprocess.Popen(
-            [str(program), f"-max_total_time={max(20, round(seconds))}", "-timeout=20", "-rss_limit_mb=2048",
+            [str(program), f"-max_total_time={max(20, round(seconds))}", "-timeout=200", "-rss_limit_mb=2048",
              f"-max_len={longest}", "-print_final_stats=1", f"-artifact_prefix={found}/", str(found / "corpus"),
              str(corpus)],
             stdout=log, stderr=subprocess.STDOUT, env=os.environ | STRICT)
