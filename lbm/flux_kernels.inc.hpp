@@ -21,7 +21,7 @@ template <class T>
 constexpr int width = static_cast<int>(Pack<T>::size());
 
 /// Direction of D3Q19 along +-d and +-b (b = -1: along d alone).
-consteval int direction_of(int d, int sd, int b, int sb) {
+constexpr int direction_of(int d, int sd, int b, int sb) {
   for (int i = 0; i < 19; ++i) {
     bool same = true;
     for (int a = 0; a < 3; ++a) same = same && d3q19::velocity[i][a] == (a == d ? sd : (a == b ? sb : 0));
@@ -37,7 +37,7 @@ struct Diagonal {
   int beside;  // 0: from this cell to the far corner; else the direction of the cell beside, whose link ends ahead
 };
 template <int D>
-consteval std::array<Diagonal, 8> diagonals() {
+constexpr std::array<Diagonal, 8> diagonals() {
   std::array<Diagonal, 8> all{};
   int k = 0;
   for (int step = 1; step <= 2; ++step)
