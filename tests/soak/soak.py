@@ -4,7 +4,7 @@
 usage: soak.py PROGRAM OUT [MINUTES]        needs python3-vtk9 of Debian; writes OUT.csv, OUT.txt and the run OUT
 
 Runs soak.toml on one thread for MINUTES (60) of wall clock and looks at the process each minute. Exits 1 if
-  the resident memory of the last half exceeds that of the tenth minute by more than 5 %,
+  the resident memory of the last half exceeds that after the first quarter, its warm-up, by more than 5 %,
   a ledger is off by more than 1e-12 of the dose,
   the mass of the air has moved by more than 1e-6 of itself,
   or the run ended other than by its wall time (exit code 75).
@@ -81,13 +81,13 @@ def main(program: str, out: str, minutes: str = "60") -> int:
     run = Path(out)
     code, rows = watch(program, run, float(minutes))
     memory = [row[1] for row in rows]
-    start, late = memory[min(9, len(memory) // 2)], max(memory[len(memory) // 2:])
+    start, late = memory[len(memory) // 4], max(memory[len(memory) // 2:])
     ledger = max(abs(float(row["ledger_error"])) for row in history(run))
     mass = masses(run)
     drift = max(abs(m - mass[0][1]) for _, m in mass)
     claims = [
         (code == 75, f"exit code {code} (75: its wall time was over)"),
-        (late <= 1.05 * start, f"resident memory {start:.1f} MB after 10 minutes, at most {late:.1f} MB in the last half"),
+        (late <= 1.05 * start, f"resident memory {start:.1f} MB after a quarter, at most {late:.1f} MB in the last half"),
         (ledger <= 1e-12, f"largest ledger error {ledger:.3g} of the dose, of {len(history(run))} rows"),
         (drift <= 1e-6, f"mass of the air moved by at most {drift:.3g} of itself, {len(mass)} fields to "
                         f"{mass[-1][0]:.3g} s"),

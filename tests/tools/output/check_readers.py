@@ -81,8 +81,9 @@ COLUMNS = {
     "planes.csv": "time,plane,flow_rate,static_pressure,total_pressure",
     "forces.csv": "time,patch,fx,fy,fz",
     "tracks.csv": "time,id,x,y,z,u,v,w,wx,wy,wz",
+    "summary.csv": "quantity,value",
 }
-TEXT_COLUMNS = {"probe", "line", "plane", "patch"}
+TEXT_COLUMNS = {"probe", "line", "plane", "patch", "quantity", "value"}
 EVENTS = ["time_start", "time_end", "a", "b", "triangle", "normal_speed", "tangential_speed", "energy", "max_force",
           "max_overlap", "detached", "attached"]
 ARRAYS = {"fields": {"velocity", "pressure", "fines_drug"},
@@ -111,6 +112,10 @@ def check_csv(run: Path) -> None:
                     expect(math.isfinite(float(value)) or name == "planes.csv", f"{name}: {key} = {value}")
     with open(run / "probes.csv", newline="") as stream:
         expect(next(csv.DictReader(stream))["probe"] == "p, with a comma", "probes.csv: quoting")
+    with open(run / "summary.csv", newline="") as stream:
+        table = {row["quantity"]: row["value"] for row in csv.DictReader(stream)}
+    summary = json.loads((run / "summary.json").read_text())
+    expect(table["name"] == summary["name"] and table["format"] == "1", "summary.csv: not the values of summary.json")
 
 
 def check_json(run: Path) -> None:
