@@ -45,6 +45,11 @@ void shared_by_scalars(int n, const double* __restrict mass, const double* __res
   }
 }
 
+/// Flux of the scalars: of the air and their own.
+void add(int n, const double* __restrict air, const double* __restrict drift, double* __restrict sum) {
+  for (int i = 0; i < n; ++i) sum[i] = air[i] + drift[i];
+}
+
 /// What leaves through a face is a part of Y plus a part of the slope: shared by all scalars of equal diffusivity.
 struct Parts {
   alignas(64) double value_high[tile], slope_high[tile], value_low[tile], slope_low[tile];
@@ -85,8 +90,14 @@ void outgoing(const SweepRun& run, const SweepScalar* scalars, int count) {
   Parts p;
   for (int from = 0; from < run.count; from += tile) {
     const int n = run.count - from < tile ? run.count - from : tile;
-    shared_by_scalars(n, run.mass + from, run.mass + from + run.low, run.open + from, run.open + from + run.low,
-                      run.air + from, run.steps, c);
+    const double *mass = run.mass + from, *mass_low = mass + run.low;
+    alignas(64) double sum[tile], sum_low[tile];
+    if (run.drift) {
+      add(n, mass, run.drift + from, sum);
+      add(n, mass_low, run.drift + from + run.low, sum_low);
+      mass = sum, mass_low = sum_low;
+    }
+    shared_by_scalars(n, mass, mass_low, run.open + from, run.open + from + run.low, run.air + from, run.steps, c);
     if (run.eddy)
       eddies(n, run.eddy + from, run.eddy + from + run.low, run.steps, c);
     else
@@ -140,7 +151,7 @@ void update(const SweepRun& run, const SweepScalar* scalars, int count) {
 }
 
 struct Outflow {
-  alignas(64) double out[3][tile], net[3][tile];  // through both faces, per air step
+  alignas(64) double out[3][tile], net[3][tile];  // through both faces, per air step; net: of the air alone
 };
 
 void outflow(int n, const double* __restrict mass, const double* __restrict mass_low,
@@ -150,6 +161,18 @@ void outflow(int n, const double* __restrict mass, const double* __restrict mass
     const double high = mass[i] * passes(open[i]), low = mass_low[i] * passes(open_low[i]);
     out[i] = positive_part(high) + positive_part(-low);
     net[i] = high - low;
+  }
+}
+
+/// The larger outflow, of the air or of what drifts in it.
+void outflow_with_drift(int n, const double* __restrict mass, const double* __restrict mass_low,
+                        const double* __restrict drift, const double* __restrict drift_low,
+                        const std::uint8_t* __restrict open, const std::uint8_t* __restrict open_low,
+                        double* __restrict out) {
+  for (int i = 0; i < n; ++i) {
+    const double high = (mass[i] + drift[i]) * passes(open[i]),
+                 low = (mass_low[i] + drift_low[i]) * passes(open_low[i]);
+    out[i] = detail::larger(out[i], positive_part(high) + positive_part(-low));
   }
 }
 
@@ -164,6 +187,11 @@ LimitFound limit(const LimitRun& run) {
     for (int d = 0; d < 3; ++d)
       outflow(n, run.mass[d] + from, run.mass[d] + from + run.low[d], run.open[d] + from,
               run.open[d] + from + run.low[d], f.out[d], f.net[d]);
+    for (int d = 0; d < 3; ++d)
+      if (run.drift[d])
+        outflow_with_drift(n, run.mass[d] + from, run.mass[d] + from + run.low[d], run.drift[d] + from,
+                           run.drift[d] + from + run.low[d], run.open[d] + from, run.open[d] + from + run.low[d],
+                           f.out[d]);
     alignas(64) double need[tile], air[tile];
     for (int i = 0; i < n; ++i) {
       const double x = f.net[0][i], y = f.net[1][i], z = f.net[2][i];
