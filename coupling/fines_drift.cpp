@@ -116,14 +116,15 @@ void add_drift(const lbm::Rows& rows, const lbm::FluxRoutes& routes, const Scale
                const DriftVelocity& velocity, lbm::FaceFluxes& fluxes) {
   for (int d = 0; d < 3; ++d) {
     std::vector<double> v = velocity[d], density = fluxes.density;
+    fluxes.drift[d].assign(rows.slots(), 0.0);
     mirror(rows, v);
     mirror(rows, density);
     for_each_cell(rows, [&](std::ptrdiff_t s, const lbm::Run& run) {
       if (fluxes.open[d][s] != 1) return;
       const std::ptrdiff_t high = s + lbm::offset_high(run, d);
-      fluxes.mass[d][s] += 0.25 * (density[s] + density[high]) * scale.velocity_lu(v[s] + v[high]);
+      fluxes.drift[d][s] = 0.25 * (density[s] + density[high]) * scale.velocity_lu(v[s] + v[high]);
     });
-    for (const auto& image : routes.images) fluxes.mass[d][image.ghost] = fluxes.mass[d][image.active];
+    for (const auto& image : routes.images) fluxes.drift[d][image.ghost] = fluxes.drift[d][image.active];
   }
   if (!drift.deposits) return;
   fluxes.sinks.clear();

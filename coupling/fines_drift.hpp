@@ -60,7 +60,7 @@ void update_drift(const lbm::Rows& rows, const lbm::FaceFluxes& fluxes, const Sc
 void set_frozen_drift(const lbm::Rows& rows, const std::function<Eigen::Vector3d(const Eigen::Vector3d&)>& air,
                       const FinesDrift& drift, DriftVelocity& velocity);
 
-/// Adds the drift to the fluxes of the open faces (openings keep the air's), and sets the sinks of the walls:
+/// Sets the drift through the open faces (openings have the air's flux alone), and the sinks of the walls:
 /// rate = max(v . n, 0) area, v of the cell beside the wall.
 void add_drift(const lbm::Rows& rows, const lbm::FluxRoutes& routes, const Scale& scale, const FinesDrift& drift,
                const DriftVelocity& velocity, lbm::FaceFluxes& fluxes);

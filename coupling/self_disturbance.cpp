@@ -1,5 +1,6 @@
 #include "coupling/self_disturbance.hpp"
 
+#include "coupling/lattice_answer.hpp"
 #include "coupling/stencil_loop.hpp"
 
 namespace puffin::coupling {
@@ -25,8 +26,8 @@ double tabulated_oseen(double r) {
 
 }  // namespace
 
-double self_disturbance(double beta, double slip, double width, double viscosity, double density) {
-  const double psi = tabulated_oseen(density * slip * width / viscosity);
+double self_disturbance(double beta, double slip, double width, double viscosity, double density, double answer) {
+  const double psi = answer * tabulated_oseen(density * slip * width / viscosity);
   return std::min(0.8, beta * psi / (6.0 * std::pow(std::numbers::pi, 1.5) * viscosity * width));
 }
 
@@ -34,6 +35,7 @@ void take_off_self(const Models& m, std::span<const double> solid, const State& 
                    std::vector<double>& beta) {
   const dem::Carriers& c = s.carriers.carriers;
   const double cell = s.scale.dx * s.scale.dx * s.scale.dx;
+  const double tau = s.scale.relaxation_time(m.air.viscosity / m.air.density);
   for_each_stencil(s.stencils, [&](const Stencil& stencil) {
     const int p = stencil.carrier;
     const Vec3 read = velocity[p] - c.velocity[p];
@@ -48,9 +50,10 @@ void take_off_self(const Models& m, std::span<const double> solid, const State& 
       share = std::min(1.0, own / phi);
     }
     const double width = kernel_width(2.0 * c.radius[p], s.scale.dx);
+    const double answer = lattice_answer(width / kernel_width(0.0, s.scale.dx), tau);
     double lambda = 0.0, single = beta[p] / c.carriers[p];
     for (int n = 0; n < 4; ++n) {  // each round leaves a tenth of the error: drag grows as slip^0.1 here
-      lambda = share * self_disturbance(single, slip / (1.0 - lambda), width, m.air.viscosity, m.air.density);
+      lambda = share * self_disturbance(single, slip / (1.0 - lambda), width, m.air.viscosity, m.air.density, answer);
       if (lambda < too_small) return;
       single = drag_coefficient(m.drag, m.air, d, slip / (1.0 - lambda), phi);
     }

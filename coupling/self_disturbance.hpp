@@ -9,12 +9,13 @@
 // Psi(0) = 1 (Stokes: Maxey & Patel, Int. J. Multiphase Flow 27, 1603 (2001), with F = 6 pi mu a U at a = s sqrt(pi)),
 // and falls as 1/R. With F = beta U it is lambda U with
 //   lambda = beta Psi(R)/(6 pi^(3/2) mu s).                                                                   (2)
-// s^2 is the variance of the coupling kernel (kernel.hpp): roma_variance max(dx, d)^2. At 70 um, 0.15 m/s and 0.25 mm
-// lambda = 0.08; at 10 m/s 0.01. The idea of taking it off: Balachandar, Liu & Lakhote, Int. J. Multiphase Flow 114, 1
-// (2019). Of a parcel's carriers each takes off its own part, not that of the others. Among others the drag laws know a
-// mean velocity that includes everybody's part: there lambda is weighted with the entry's share of the solid volume
-// that it sees. Walls within a few kernel widths weaken the disturbance, eddy viscosity too: (2) is then too large.
-// Checked by: tests/coupling/test_self_disturbance.cpp
+// s^2 is the variance of the coupling kernel (kernel.hpp): roma_variance max(dx, d)^2. The lattice answers waves of a
+// few cells more weakly than (1) says; lattice_answer() is what is left, and lambda is multiplied with it. At 70 um,
+// 0.15 m/s and 0.25 mm lambda = 0.08; at 10 m/s 0.01. The idea of taking it off: Balachandar, Liu & Lakhote, Int. J.
+// Multiphase Flow 114, 1 (2019). Of a parcel's carriers each takes off its own part, not that of the others. Among
+// others the drag laws know a mean velocity that includes everybody's part: there lambda is weighted with the entry's
+// share of the solid volume that it sees. Walls within a few kernel widths weaken the disturbance, eddy viscosity too:
+// (2) is then too large. Checked by: tests/coupling/test_self_disturbance.cpp
 
 #include <algorithm>
 #include <array>
@@ -51,10 +52,10 @@ inline double oseen_factor(double r) {
 /// Standard deviation [m] of the kernel of an entry of `diameter` [m] on cells of dx [m].
 inline double kernel_width(double diameter, double dx) { return std::sqrt(roma_variance) * std::max(diameter, dx); }
 
-/// Eq. (2). in: drag coefficient of ONE carrier [kg/s], its slip to the undisturbed air [m/s], kernel width [m],
-/// viscosity [Pa s] and density of the air [kg/m^3]. At most 0.8: a carrier that would read more of itself than that is
-/// resolved by the lattice.
-double self_disturbance(double beta, double slip, double width, double viscosity, double density);
+/// Eq. (2) times `answer`, see lattice_answer(). in: drag coefficient of ONE carrier [kg/s], its slip to the
+/// undisturbed air [m/s], kernel width [m], viscosity [Pa s] and density of the air [kg/m^3]. At most 0.8: a carrier
+/// that would read more of itself than that is resolved by the lattice.
+double self_disturbance(double beta, double slip, double width, double viscosity, double density, double answer = 1.0);
 
 /// Changes `velocity` [m/s] from what the carriers read to the air without their own disturbance, and `beta` [kg/s] to
 /// what the drag law says at that slip. Both by carrier index. `solid`: solid fraction at the carriers, or empty.

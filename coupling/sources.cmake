@@ -18,6 +18,7 @@ set(PUFFIN_COUPLING_SOURCES
   regain_fines.cpp
   release_fines.cpp
   replay_fines.cpp
+  lattice_answer.cpp
   self_disturbance.cpp
   slip_history.cpp
   statistics.cpp

@@ -33,6 +33,7 @@
 #include "dem/meeting.hpp"
 #include "dem/normal_force.hpp"
 #include "dem/open_contacts.hpp"
+#include "dem/placed_contact.hpp"
 
 namespace puffin::dem {
 namespace {
@@ -184,9 +185,12 @@ double evaluate(std::size_t index, double h, double time, double horizon, const 
       return time_to_touch(m, horizon, rules, touch, a, b);
     }
     const double parting = m.normal.dot(centre_velocity(a, b, true));
-    if (parting > 0.0 || (parting == 0.0 && m.normal.dot(acceleration(a, b)) >= 0.0)) return never;
+    const double pulled = parting == 0.0 ? m.normal.dot(acceleration(a, b)) : 0.0;
+    const bool hangs = hangs_at_rest(parting, pulled, touch);
+    if (parting > 0.0 || (parting == 0.0 && pulled >= 0.0 && !hangs)) return never;
     if (b != nullptr && b->sleeper) b->disturbed = cluster.disturbed = true;
     begin_contact(m, h, time, rules, cluster, touch, a, b);
+    if (hangs) hang(m, pulled, touch, a, b);
     share = time - c.time_start;
     if (b == nullptr && rules.on_wall == OnWall::stick) {
       a.stuck = a.fixed = true;

@@ -25,12 +25,15 @@ double course_gap(double duration, const Carriers& all, std::int32_t i, std::int
   return (p + time * w).norm() - all.radius[i] - all.radius[j];
 }
 
+constexpr double touching = 1e-9;  // of the radius, as in contact_step.cpp
+
 /// True if a wall may be touched within the step.
 bool may_touch_wall(double duration, const Vector3d& x, const Vector3d& v, const Vector3d& a, double radius,
                     double margin, const WallCache& cache) {
   const double way = v.norm() * duration;
   for (const WallPlane& plane : cache.planes) {
     const double gap = plane.gap(x, radius) - margin;
+    if (gap <= touching * radius && v.isZero(0.0)) return true;  // placed there: it may hang (placed_contact.hpp)
     if (gap < 0.0 || first_zero(gap, plane.normal.dot(v), plane.normal.dot(a), duration) <= duration) return true;
     // Further than the planes are trusted, another place of the wall may come up.
     if (way > 0.2 * radius && gap < way) return true;

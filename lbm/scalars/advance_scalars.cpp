@@ -142,7 +142,8 @@ void exchange_openings(const Update& u, int d, double steps, const std::vector<d
   }
 }
 
-void sweep(const Update& u, const SweepKernel& kernel, int d, double steps, const std::vector<double>& exchange) {
+void sweep(const Update& u, const SweepKernel& kernel, int d, double steps, const std::vector<double>& exchange,
+           bool drifts) {
   if (u.rows.box()[d] == 1 && u.rows.periodic()[d]) return;  // one cell, its own neighbour
   const ScalarWork& work = u.fields.work;
   const int scalars = u.fields.scalars();
@@ -161,7 +162,8 @@ void sweep(const Update& u, const SweepKernel& kernel, int d, double steps, cons
                     u.fluxes.open[d].data() + run.first,
                     steps,
                     u.fields.air.data() + run.first,
-                    u.fluxes.eddy[d].empty() ? nullptr : u.fluxes.eddy[d].data() + run.first};
+                    u.fluxes.eddy[d].empty() ? nullptr : u.fluxes.eddy[d].data() + run.first,
+                    drifts ? u.fluxes.drift[d].data() + run.first : nullptr};
   };
   for (int k = 0; k < scalars; ++k)
     for (const auto& [ghost, cell] : work.periodic[d]) u.concentration(k)[ghost] = u.concentration(k)[cell];
@@ -272,23 +274,26 @@ double advance_scalars(const Rows& rows, const FaceFluxes& fluxes, double steps,
     } else {
       find_limits(rows, fluxes, fields.air, options.cfl, fields.work.computed, limits);
     }
-    const Plan p = plan(u, strictest(limits, options.cfl, fields.work.computed), eddy, steps - elapsed);
+    Plan p = plan(u, strictest(limits, options.cfl, fields.work.computed), eddy, steps - elapsed);
     if (p.any_implicit && !all) {  // lines carry it everywhere at once
       all = true;
       continue;
     }
+    // Drift and diffusion balance each other: both in the sweeps, or both in the lines.
+    const bool drifts = !fluxes.drift[0].empty();
+    if (drifts && p.any_implicit) p.implicit.assign(fields.scalars(), true);
     std::vector<double> exchange(fields.scalars());
     for (int k = 0; k < fields.scalars(); ++k)
       exchange[k] = p.implicit[k] ? 0.0 : p.steps * options.scalar[k].diffusivity;
     const auto sweep_all = [&] {
-      for (int n = 0; n < 3; ++n) sweep(u, kernel, fields.reversed ? 2 - n : n, p.steps, exchange);
+      for (int n = 0; n < 3; ++n)
+        sweep(u, kernel, fields.reversed ? 2 - n : n, p.steps, exchange, drifts && !p.any_implicit);
     };
     const auto diffuse_all = [&] {
       for (int n = 0; n < 3; ++n)
         for (int k = 0; k < fields.scalars(); ++k)
           if (p.implicit[k])
-            diffuse_lines(rows, fluxes, fields.reversed ? 2 - n : n, k, options.scalar[k],
-                          p.steps * options.scalar[k].diffusivity, fields, budget);
+            diffuse_lines(rows, fluxes, fields.reversed ? 2 - n : n, k, options.scalar[k], p.steps, fields, budget);
     };
     // Mirrored from one sub-step to the next, which makes two of them second order in time.
     if (fields.reversed) diffuse_all();

@@ -30,6 +30,9 @@ void check_fluxes(const Rows& rows, const FaceFluxes& fluxes, const ScalarWork& 
   for (const auto& eddy : fluxes.eddy)
     if (!eddy.empty() && eddy.size() != rows.slots())
       throw std::invalid_argument("face fluxes: eddy must have one value a slot, or none");
+  for (const auto& drift : fluxes.drift)
+    if (!drift.empty() && drift.size() != rows.slots())
+      throw std::invalid_argument("face fluxes: drift must have one value a slot, or none");
   for (const Run& run : rows.runs())
     for (std::ptrdiff_t s = run.first; s < run.first + run.count; ++s) {
       if (!(fluxes.density[s] > 0.0)) throw std::invalid_argument("face fluxes: no air in cell " + place(rows, s));

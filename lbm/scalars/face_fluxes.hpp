@@ -12,7 +12,9 @@ namespace puffin::lbm {
 /// stored slot, so also for the low faces of the first active cells (there s is a ghost).
 /// Lattice units: mass of air (reference density 1) through the face in one air step, positive in +d.
 struct FaceFluxes {
-  std::array<std::vector<double>, 3> mass;        // [d][slot]
+  std::array<std::vector<double>, 3> mass;   // [d][slot]
+  std::array<std::vector<double>, 3> drift;  // [d][slot] what the scalars drift through the air, as mass of the air
+                                             // that holds them; moves no air; empty: none
   std::array<std::vector<std::uint8_t>, 3> open;  // [d][slot] 0: wall (no flux, no diffusion), 1: open, 2: opening of
                                                   // the domain (inlet, outlet), one side is a ghost
   std::array<std::vector<double>, 3> eddy;        // [d][slot] diffusivity on top of each scalar's own [dx^2 per air

@@ -25,6 +25,7 @@ void find_limits(const Rows& rows, const FaceFluxes& fluxes, const std::vector<d
       LimitRun faces{run.count, {}, {}, {}, air.data() + run.first, cfl};
       for (int d = 0; d < 3; ++d) {
         faces.mass[d] = fluxes.mass[d].data() + run.first;
+        if (!fluxes.drift[d].empty()) faces.drift[d] = fluxes.drift[d].data() + run.first;
         faces.open[d] = fluxes.open[d].data() + run.first;
         faces.low[d] = offset_low(run, d);
       }

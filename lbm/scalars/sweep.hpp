@@ -17,6 +17,9 @@
 // that. Y' = Y - drift slope is the concentration half a step later, drift = (net outflow to the high side)/(2 theta):
 // it makes the diffusion second order in time. The neighbour upstream, of which Y' takes up to the part 2 drift, still
 // counts with a positive weight while drift <= 1/6 (two times 1/3 lost, 1 - 1/3 received), so it is clipped there.
+// Scalars that drift through the air leave with a = air + drift; the air does not move with them. So a cell between
+// walls in which they gather gets a larger Y, not more air: in equilibrium Y falls as exp(-w z/D). Without new extrema
+// in the part that follows the air; where the drift converges Y must grow.
 // Source of the scheme: B. van Leer, J. Comput. Phys. 23, 276 (1977); of the carried air: R. C. Easter, Mon. Weather
 // Rev. 121, 297 (1993).
 
@@ -41,6 +44,7 @@ struct SweepRun {
   double steps = 0.0;                  // air steps
   double* air = nullptr;               // [cell] theta
   const double* eddy = nullptr;        // [cell] diffusivity of all scalars on top, at the high face; null: none
+  const double* drift = nullptr;       // [cell] the scalars' own flux on top, as mass of air; null: none
 };
 
 /// One scalar along the run.
@@ -61,6 +65,7 @@ struct LimitRun {
   std::ptrdiff_t low[3] = {};        // slot offsets to the low neighbours
   const double* air = nullptr;       // [cell] theta
   double cfl = 0.0;
+  const double* drift[3] = {};  // [cell] on top of mass, or null
 };
 struct LimitFound {
   double demand = 0.0;     // largest cfl / steps

@@ -75,9 +75,14 @@ void outgoing(const SweepRun& run, const SweepScalar* scalars, int count) {
     const int cells = cells_of_pack(run.count, n);
     const Codes at_high = read_codes(run.open + n), at_low = read_codes(run.open + n + run.low);
     const Reals per_air = 1.0 / load(run.air + n);
-    // Air leaving through the faces, and (1 - out/theta)/2.
-    const Reals out_high = positive_part(run.steps * load(run.mass + n) * at_high.passes);
-    const Reals out_low = positive_part(-run.steps * load(run.mass + n + run.low) * at_low.passes);
+    // What leaves through the faces, as air, and (1 - out/theta)/2.
+    Reals mass_high = load(run.mass + n), mass_low = load(run.mass + n + run.low);
+    if (run.drift) {
+      mass_high = mass_high + load(run.drift + n);
+      mass_low = mass_low + load(run.drift + n + run.low);
+    }
+    const Reals out_high = positive_part(run.steps * mass_high * at_high.passes);
+    const Reals out_low = positive_part(-run.steps * mass_low * at_low.passes);
     const Reals reach_high = 0.5 - 0.5 * out_high * per_air, reach_low = 0.5 - 0.5 * out_low * per_air;
     // Half the net outflow to the high side per theta, clipped.
     const Reals net = reach_low - reach_high, size = detail::smaller(detail::magnitude(net), Reals{} + largest_drift);
@@ -125,14 +130,19 @@ LimitFound limit(const LimitRun& run) {
   Lanes<long long, lanes> lane;
   for (int l = 0; l < lanes; ++l) lane[l] = l;
   for (int n = 0; n < run.count; n += lanes) {
-    Reals out[3], net[3];  // through both faces, per air step
+    Reals out[3], net[3];  // through both faces, per air step; net: of the air alone
     for (int d = 0; d < 3; ++d) {
       const double* mass = run.mass[d] + n;
       const std::uint8_t* open = run.open[d] + n;
-      const Reals high = load(mass) * read_codes(open).passes;
-      const Reals low = load(mass + run.low[d]) * read_codes(open + run.low[d]).passes;
+      const Reals at_high = read_codes(open).passes, at_low = read_codes(open + run.low[d]).passes;
+      const Reals high = load(mass) * at_high, low = load(mass + run.low[d]) * at_low;
       out[d] = positive_part(high) + positive_part(-low);
       net[d] = high - low;
+      if (!run.drift[d]) continue;
+      const double* drift = run.drift[d] + n;  // the larger outflow counts, of the air or of what drifts in it
+      const Reals with_high = (load(mass) + load(drift)) * at_high;
+      const Reals with_low = (load(mass + run.low[d]) + load(drift + run.low[d])) * at_low;
+      out[d] = larger(out[d], positive_part(with_high) + positive_part(-with_low));
     }
     const Reals x = net[0], y = net[1], z = net[2];
     const Reals first = larger(out[0], out[2]);

@@ -4,11 +4,16 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
+#include <array>
 #include <cmath>
+#include <complex>
 #include <string>
 
 #include "cases/build.hpp"
 #include "cases/read_case.hpp"
+#include "coupling/lattice_answer.hpp"
+#include "lbm/d3q19.hpp"
 
 namespace puffin::cases {
 namespace {
@@ -118,6 +123,57 @@ time = "1 s"
   return sum / time / (slip + mass() * gravity * images(edge, width, slip));
 }
 
+/// Steady u_z for a unit force along z in one wave k of the regularised step, linearised at rest: ten moments (density,
+/// momentum, stress without trace) of f_i = exp(-i k.c) w_i [rho + 3 c.(j + F) + 9/2 (1 - 1/tau) (cc - 1/3):Pi].
+double steady_answer(const Eigen::Vector3d& k, double tau) {
+  constexpr int axes[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}};
+  Eigen::Matrix<std::complex<double>, 10, 10> a = Eigen::Matrix<std::complex<double>, 10, 10>::Identity();
+  Eigen::Matrix<std::complex<double>, 10, 1> right = Eigen::Matrix<std::complex<double>, 10, 1>::Zero();
+  for (int i = 0; i < lbm::d3q19::q; ++i) {
+    const auto& v = lbm::d3q19::velocity[i];
+    const Eigen::Vector3d c(v[0], v[1], v[2]);
+    Eigen::Matrix<double, 10, 1> made, read;
+    made.head<4>() << 1.0, 3.0 * c;
+    read.head<4>() << 1.0, c;
+    for (int n = 0; n < 6; ++n) {
+      const int p = axes[n][0], q = axes[n][1];
+      const double same = p == q ? 1.0 : 0.0;
+      made[4 + n] = 4.5 * (1.0 - 1.0 / tau) * (c[p] * c[q] - same / 3.0) * (2.0 - same);
+      read[4 + n] = c[p] * c[q] - same * c.squaredNorm() / 3.0;
+    }
+    const std::complex<double> arrives = lbm::d3q19::weight[i] * std::exp(std::complex<double>(0.0, -k.dot(c)));
+    a -= arrives * (read * made.transpose());
+    right += arrives * 3.0 * c.z() * read;
+  }
+  return a.partialPivLu().solve(right)[3].real() + 0.5;
+}
+
+/// lattice_answer() by its sum over the waves of lattices of 12 and 24 cells.
+double lattice_sum(double width, double tau) {
+  const coupling::Kernel kernel(width);
+  const int reach = kernel.reach();
+  std::array<std::array<double, 2 * coupling::Kernel::max_reach + 1>, 3> weights;
+  for (int d = 0; d < 3; ++d) kernel.weights(std::array{0.2, 0.45, -0.05}[d], weights[d].data());
+  double sum[2] = {0.0, 0.0};
+  for (const int fine : {0, 1}) {
+    const int n = fine ? 24 : 12;
+    const auto wave = [&](int m) { return 2.0 * M_PI * (m + 0.5) / n; };
+    const auto kernel2 = [&](int d, int m) {  // |transform of the kernel's weights|^2
+      std::complex<double> transform = 0.0;
+      for (int j = 0; j <= 2 * reach; ++j)
+        transform += weights[d][j] * std::exp(std::complex<double>(0.0, wave(m) * j));
+      return std::norm(transform);
+    };
+    for (int x = 0; x < n / 2; ++x)
+      for (int y = 0; y < n / 2; ++y)
+        for (int z = 0; z < n / 2; ++z)
+          sum[fine] += 8.0 / (n * n * n) * kernel2(0, x) * kernel2(1, y) * kernel2(2, z) *
+                       steady_answer({wave(x), wave(y), wave(z)}, tau);
+  }
+  const double unit = 6.0 * std::pow(M_PI, 1.5) * std::sqrt(coupling::roma_variance) * width;
+  return (2.0 * sum[1] - sum[0]) * (tau - 0.5) / 3.0 * unit;
+}
+
 }  // namespace
 
 // Against Simpson's rule with 40,000 places.
@@ -142,13 +198,19 @@ TEST(SelfDisturbance, ABumpAsWideAsTheSphereReadsItsWholeSlip) {
   EXPECT_NEAR(coupling::self_disturbance(3.0 * M_PI * viscosity * radius, 0.0, width, viscosity, density), 0.5, 1e-9);
 }
 
-// Wanted: 3 %, from a carrier a fifth of a cell wide to one of one and a half. Reached at both ends. Between them
-// Roma's kernel on its own cells is no smooth bump: the lattice answers it 8 to 16 % more weakly than (1) says, and the
-// carrier falls 4 % (0.5) and 6 % (1.0) too slowly; without the correction it would be too fast by lambda/(1 - lambda),
-// 20 to 70 %. The bound there, 7 %, holds the measured state.
+// The table against the sum that it stands for, over two lattices of wave numbers and the limit of their 1/N. 1 %: the
+// table's mean over places of the kernel between the cells, here one place.
+TEST(SelfDisturbance, TheLatticeAnswersAsItsLinearisedStepSays) {
+  for (const auto& [width, tau] :
+       {std::pair(1.0, 0.6), std::pair(1.0, 0.501), std::pair(1.5, 0.55), std::pair(3.0, 0.7)})
+    EXPECT_NEAR(coupling::lattice_answer(width, tau), lattice_sum(width, tau), 0.01 * lattice_sum(width, tau))
+        << width << ' ' << tau;
+}
+
+// 3 %: Psi within 0.5 %, the lattice's answer within 1 % at rest and taken for the same at R > 0; both times lambda/(1
+// - lambda), at most 0.7 here.
 TEST(SelfDisturbance, ACarrierFallsAtItsOwnSpeedWhateverItsSizeInCells) {
-  for (const double in_cells : {0.2, 1.5}) EXPECT_NEAR(fall(diameter / in_cells), 1.0, 0.03) << in_cells;
-  for (const double in_cells : {0.5, 1.0}) EXPECT_NEAR(fall(diameter / in_cells), 1.0, 0.07) << in_cells;
+  for (const double in_cells : {0.2, 0.5, 1.0, 1.5}) EXPECT_NEAR(fall(diameter / in_cells), 1.0, 0.03) << in_cells;
 }
 
 }  // namespace puffin::cases

@@ -73,6 +73,22 @@ TEST(Adhesion, PullOffForceIsThatOfTheHamakerCatalogue) {
   EXPECT_NEAR(pair_law(law, radius, radius, wall, wall, 1e-10).well, 6.33e-16, 1e-3 * 6.33e-16);
 }
 
+// A case may place a carrier so that it hangs. Of a bond at rest the spring gives 2 d0 at F0; it is placed loaded.
+TEST(Adhesion, ACarrierPlacedOnAWallHoldsUpToItsPullOffForceWhateverTheStiffness) {
+  for (const std::optional<double> stiffness : {std::optional<double>{}, std::optional(100.0), std::optional(1e4)})
+    for (const double part : {0.98, 1.02}) {
+      Scene s = sticky_floor(0.5, stiffness);
+      s.models.integration.sleep = false;
+      s.add(lactose(1, {0, 0, radius}));
+      s.loads[0].force = {0, 0, part * 1.58336e-6};
+      s.run(200e-6, 1e-6);
+      if (part < 1.0)
+        EXPECT_NEAR(s.x(0).z(), radius, 2.0 * d0) << stiffness.value_or(0.0);
+      else
+        EXPECT_GT(s.x(0).z(), 2.0 * radius) << stiffness.value_or(0.0);  // F t^2/(2 m) = 1.2e-4 m further
+    }
+}
+
 // Facts 3.12: for 10 carriers a parcel, l = 2.154, adhesion per mass is x 0.215, 0.464, 1 of a single carrier's.
 TEST(Adhesion, ParcelScalingKeepsForcePerLengthAreaOrMass) {
   const double wall = std::numeric_limits<double>::infinity(), l = std::cbrt(10.0);

@@ -219,9 +219,10 @@ output::Summary summarize(const cases::Simulation& s, const Recorder& recorder, 
     const double seconds = e.air + e.links;
     r.mlups = seconds > 0.0 ? 1e-6 * static_cast<double>(r.cells_fluid) * static_cast<double>(r.steps) / seconds : 0.0;
     r.mlups_active = r.mlups;
-    r.dt_min = s.state.extremes.min_dt;
-    r.dt_max = s.state.extremes.max_dt;
-    r.tau_min = s.state.extremes.min_tau;
+    const bool moved = air.steps > 0;  // the lattice of a frozen field only carries fines
+    r.dt_min = moved ? s.state.extremes.min_dt : s.state.scale.dt;
+    r.dt_max = moved ? s.state.extremes.max_dt : s.state.scale.dt;
+    r.tau_min = moved ? s.state.extremes.min_tau : 0.0;
     r.limited = air.limited;
     r.backflow = air.backflow;
     r.mach_max = std::sqrt(3.0) * s.state.extremes.max_speed_lu;

@@ -18,7 +18,7 @@ double variance(const Scene& s, const ScalarFields& f, int n) {
 }
 
 TEST(Diffusion, grows_the_variance_by_2_D_t_exactly) {
-  // For explicit Euler and backward Euler alike the second moment of a discrete cloud grows by exactly 2 D n per
+  // For every weight of old and new values the second moment of a discrete cloud grows by exactly 2 D n per
   // update, far from walls. Rounding: moments of order 100^2 from numbers near 1, 1e-12.
   for (const double diffusivity : {0.01, 0.2, 3.0}) {
     Scene s = make_scene({401, 1, 1}, {false, true, true});
@@ -32,15 +32,16 @@ TEST(Diffusion, grows_the_variance_by_2_D_t_exactly) {
 }
 
 TEST(Diffusion, decays_a_wave_across_a_periodic_box_at_the_rate_of_its_wave_number) {
-  // One update of backward Euler multiplies cos(k x) by 1/(1 + 4 D n sin^2(k/2)), exactly; this checks the closed
-  // lines. 10 cells.
+  // One update multiplies cos(k x) by (1 - e c)/(1 + (1 - e) c), c = 4 D n sin^2(k/2), exactly; e = 1/(4 D n) here,
+  // half of what empties a cell through its two faces. This checks the closed lines. 10 cells.
   Scene s = make_scene({1, 10, 1}, {true, true, true});
   ScalarFields f = s.fields();
   ScalarBudget b = s.budget();
   const double k = 2.0 * M_PI / 10.0, diffusivity = 5.0;
   for (int j = 0; j < 10; ++j) f.amount[0][s.at(0, j)] = 1.0 + 0.5 * std::cos(k * j);
   advance_scalars(s.rows, s.fluxes, 1.0, {{{Scheme::mc, diffusivity}}}, f, b);
-  const double factor = 1.0 / (1.0 + 4.0 * diffusivity * std::pow(std::sin(k / 2), 2));
+  const double c = 4.0 * diffusivity * std::pow(std::sin(k / 2), 2), e = 0.25 / diffusivity;
+  const double factor = (1.0 - e * c) / (1.0 + (1.0 - e) * c);
   for (int j = 0; j < 10; ++j) EXPECT_NEAR(f.amount[0][s.at(0, j)], 1.0 + 0.5 * factor * std::cos(k * j), 1e-14);
 }
 
@@ -51,9 +52,10 @@ TEST(Diffusion, closed_lines_of_two_and_three_cells_are_right_as_well) {
     ScalarBudget b = s.budget();
     f.amount[0][s.at(0, 0, 0)] = 1.0;
     advance_scalars(s.rows, s.fluxes, 1.0, {{{Scheme::mc, 4.0}}}, f, b);
-    // (1 + 2D) a - 2 D b' = 1 and its partners; n = 2: both faces join the same pair; n = 3: a, and twice b = (1-a)/2.
-    // n = 2: a - b decays by 1/(1 + 4 D); n = 3: by 1/(1 + 3 D).
-    const double difference = 1.0 / (1.0 + (n == 2 ? 4.0 : 3.0) * 4.0);
+    // n = 2: both faces join the same pair; n = 3: a, and twice b = (1-a)/2.
+    // n = 2: a - b decays by (1 - e c)/(1 + (1 - e) c) with c = 4 D, e = 1/(4 D); n = 3: c = 3 D.
+    const double c = (n == 2 ? 4.0 : 3.0) * 4.0, e = 0.25 / 4.0;
+    const double difference = (1.0 - e * c) / (1.0 + (1.0 - e) * c);
     EXPECT_NEAR(f.amount[0][s.at(0, 0, 0)] - f.amount[0][s.at(0, 0, 1)], difference, 1e-15) << n;
     EXPECT_NEAR(total(f, 0), 1.0, 1e-15);
   }
