@@ -15,6 +15,9 @@ set(PUFFIN_GEOMETRY_SOURCES
   geometry/tree_build.cpp
   geometry/tree_features.cpp
   geometry/tree_rays.cpp
+  geometry/tree_search.cpp
+  geometry/tree_search_avx2.cpp
+  geometry/tree_search_baseline.cpp
   geometry/tree_winding.cpp
   geometry/triangle_tree.cpp
   geometry/union_fraction.cpp

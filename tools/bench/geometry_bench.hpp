@@ -25,7 +25,8 @@ struct GeometryRow {
 
 /// A wavy torus of a million triangles (quick: a hundred thousand), ten million cells (one): written as binary STL,
 /// read, checked, its tree built, voxelised, cut; then distances, winding numbers, rays over links and contact places
-/// at random points. Calls `done` after each row. Throws std::runtime_error if the file cannot be written.
+/// at random points; distances also for a hundred thousand (quick: not) and ten thousand triangles. Calls `done` after
+/// each row. Throws std::runtime_error if the file cannot be written.
 void geometry_benchmark(bool quick, const std::function<void(const GeometryRow&)>& done);
 
 }  // namespace puffin::bench
