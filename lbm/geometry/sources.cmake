@@ -12,6 +12,7 @@ set(PUFFIN_GEOMETRY_SOURCES
   geometry/stl.cpp
   geometry/stl_text.cpp
   geometry/surface_check.cpp
+  geometry/t_junctions.cpp
   geometry/tree_build.cpp
   geometry/tree_features.cpp
   geometry/tree_rays.cpp
