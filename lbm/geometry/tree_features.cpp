@@ -22,26 +22,28 @@ class Gatherer {
   Gatherer(const TriangleTree& tree, const Vec3& centre, double reach, const std::vector<char>* skip, Side side,
            std::vector<Feature>& out)
       : tree_(tree), centre_(centre), reach_(reach), skip_(skip), side_(side), out_(out), first_(out.size()) {
-    seen_edges_.clear();
-    seen_vertices_.clear();
-    met_.clear();
-    distances_.clear();
+    scratch_.seen_edges.clear();
+    scratch_.seen_vertices.clear();
+    scratch_.met.clear();
+    scratch_.distances.clear();
   }
 
   void meet(int triangle, const Vec3& a, const Vec3& b, const Vec3& c) {
     const NearestOnTriangle nearest = nearest_on_triangle(centre_, a, b, c);
     const double d2 = (nearest.point - centre_).squaredNorm();
-    if (d2 > reach_ * reach_ || skipped(triangle) || tree_.adjacency().edge(triangle, 0) < 0) return;
-    met_.push_back(triangle);
-    distances_.push_back({nearest, d2});
+    if (d2 > reach_ * reach_ || skipped(triangle)) return;
+    scratch_.met.push_back(triangle);
+    scratch_.distances.push_back({nearest, d2});
   }
 
   void gather() {
-    for (std::size_t n = 0; n < met_.size(); ++n) {
-      const auto& [nearest, d2] = distances_[n];
-      const int region = static_cast<int>(nearest.region), triangle = met_[n];
+    for (std::size_t n = 0; n < scratch_.met.size(); ++n) {
+      const auto& [nearest, d2] = scratch_.distances[n];
+      const int region = static_cast<int>(nearest.region), triangle = scratch_.met[n];
       if (nearest.region == Region::face) {
         if (faces(tree_.mesh().area_vector(triangle), nearest.point)) emit(triangle, nearest.point, d2);
+      } else if (tree_.adjacency().edge(triangle, 0) < 0) {
+        continue;  // two equal corners: its neighbours are met
       } else if (region >= 3) {
         visit_edge(triangle, tree_.adjacency().edge(triangle, region - 3), nearest.point, d2);
       } else {
@@ -59,8 +61,9 @@ class Gatherer {
 
   // Does a triangle come nearer to the centre than d2? One that was not met is beyond reach.
   bool nearer(int triangle, double d2) const {
-    const auto at = std::find(met_.begin(), met_.end(), triangle);
-    return at != met_.end() && distances_[at - met_.begin()].squared < d2 * (1.0 - same_distance);
+    const auto& met = scratch_.met;
+    const auto at = std::find(met.begin(), met.end(), triangle);
+    return at != met.end() && scratch_.distances[at - met.begin()].squared < d2 * (1.0 - same_distance);
   }
 
   bool first_time(std::vector<std::int32_t>& seen, std::int32_t id) {
@@ -70,7 +73,7 @@ class Gatherer {
   }
 
   void visit_edge(int triangle, std::int32_t edge, const Vec3& point, double d2) {
-    if (!first_time(seen_edges_, edge)) return;
+    if (!first_time(scratch_.seen_edges, edge)) return;
     const auto uses = tree_.adjacency().uses(edge);
     for (const auto& use : uses)
       if (use.triangle != triangle && nearer(use.triangle, d2)) return;
@@ -86,7 +89,7 @@ class Gatherer {
   // The outward direction at a vertex: normals weighted by the angle of the corner, Baerentzen & Aanaes, IEEE TVCG
   // 11(3), 243 (2005): its sign against the distance vector tells the sides apart.
   void visit_vertex(int triangle, std::int32_t vertex, const Vec3& point, double d2) {
-    if (!first_time(seen_vertices_, vertex)) return;
+    if (!first_time(scratch_.seen_vertices, vertex)) return;
     const TriangleMesh& m = tree_.mesh();
     const auto around = tree_.adjacency().around(vertex);
     for (const std::int32_t t : around)
@@ -122,9 +125,15 @@ class Gatherer {
     NearestOnTriangle nearest;
     double squared;
   };
-  // Kept to save allocations.
-  inline static thread_local std::vector<std::int32_t> seen_edges_, seen_vertices_, met_;
-  inline static thread_local std::vector<Distance> distances_;  // of met_
+  struct Scratch {
+    std::vector<std::int32_t> seen_edges, seen_vertices, met;
+    std::vector<Distance> distances;  // of met
+  };
+  static Scratch& scratch() {  // kept to save allocations
+    static thread_local Scratch own;
+    return own;
+  }
+  Scratch& scratch_ = scratch();
 };
 
 }  // namespace

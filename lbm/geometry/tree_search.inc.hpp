@@ -3,6 +3,8 @@
 
 #include <immintrin.h>
 
+#include <cstddef>
+
 #include "lbm/geometry/tree_search.hpp"
 
 namespace puffin::lbm::geometry::PUFFIN_ISA {
@@ -130,24 +132,35 @@ void nearest_first(const TreeSearch& search) {
   }
 }
 
+/// Asks for the memory of a node or leaf that is looked at later.
+[[gnu::always_inline]] inline void fetch(const TreeSearch& search, std::int32_t child) {
+  const char* at = child >= 0 ? reinterpret_cast<const char*>(search.nodes + child)
+                              : reinterpret_cast<const char*>(search.leaves + ~child);
+  const std::size_t bytes = child >= 0 ? sizeof(TreeNode) : sizeof(LeafTriangles);
+  for (std::size_t b = 0; b < bytes; b += 64) __builtin_prefetch(at + b);
+}
+
 void all(const TreeSearch& search) {
   const Pack point[3] = {all_of(search.point[0]), all_of(search.point[1]), all_of(search.point[2])};
-  std::int32_t stack[stack_size];
+  struct {
+    std::int32_t child, count;
+  } stack[stack_size];
   int top = 0;
-  stack[top++] = 0;
+  stack[top++] = {0, 1};
   while (top > 0) {
-    const TreeNode& node = search.nodes[stack[--top]];
-    for (unsigned left = within(to_boxes(node, point), search.limit); left != 0; left &= left - 1U) {
-      const int c = __builtin_ctz(left);
-      if (node.child[c] >= 0) {
-        stack[top++] = node.child[c];
-        continue;
+    const auto [child, count] = stack[--top];
+    if (child >= 0) {
+      const TreeNode& node = search.nodes[child];
+      for (unsigned left = within(to_boxes(node, point), search.limit); left != 0; left &= left - 1U) {
+        const int c = __builtin_ctz(left);
+        fetch(search, node.child[c]);
+        stack[top++] = {node.child[c], node.count[c]};
       }
-      const Pack distance = to_triangles(search.leaves[~node.child[c]], point, search.tolerance);
-      unsigned hit = within(distance, search.limit) & ((1U << node.count[c]) - 1U);
-      for (; hit != 0; hit &= hit - 1U)
-        search.found(search.context, ~node.child[c] * lanes + __builtin_ctz(hit), search.limit);
+      continue;
     }
+    const Pack distance = to_triangles(search.leaves[~child], point, search.tolerance);
+    unsigned hit = within(distance, search.limit) & ((1U << count) - 1U);
+    for (; hit != 0; hit &= hit - 1U) search.found(search.context, ~child * lanes + __builtin_ctz(hit), search.limit);
   }
 }
 

@@ -62,8 +62,10 @@ double seconds_of(Work&& work) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-/// Points at most `reach` from random places of the surface, or anywhere in the bounding box.
-std::vector<Vec3> random_points(const geometry::TriangleTree& tree, std::size_t count, double reach) {
+/// Points at most `reach` from random places of the surface (`at_corners`: from random corners of triangles), or
+/// anywhere in the bounding box.
+std::vector<Vec3> random_points(const geometry::TriangleTree& tree, std::size_t count, double reach,
+                                bool at_corners = false) {
   std::mt19937_64 random(17);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   std::uniform_int_distribution<int> triangle(0, static_cast<int>(tree.mesh().triangles.size()) - 1);
@@ -72,8 +74,11 @@ std::vector<Vec3> random_points(const geometry::TriangleTree& tree, std::size_t 
     const Vec3 share(unit(random), unit(random), unit(random));
     if (reach > 0.0) {
       const int t = triangle(random);
-      points.push_back(tree.mesh().corner(t, 0) +
-                       reach * (2.0 * unit(random) - 1.0) * Vec3(share - Vec3::Constant(0.5)).normalized());
+      const Vec3 &a = tree.mesh().corner(t, 0), &b = tree.mesh().corner(t, 1), &c = tree.mesh().corner(t, 2);
+      double u = unit(random), v = unit(random);
+      if (u + v > 1.0) u = 1.0 - u, v = 1.0 - v;
+      const Vec3 place = at_corners ? a : Vec3(a + u * (b - a) + v * (c - a));
+      points.push_back(place + reach * (2.0 * unit(random) - 1.0) * Vec3(share - Vec3::Constant(0.5)).normalized());
     } else {
       points.push_back(tree.min() + share.cwiseProduct(tree.max() - tree.min()));
     }
@@ -157,16 +162,18 @@ class Measurement {
       const auto hit = tree_->first_hit(points[n], dx_ * Vec3(n % 3 - 1.0, n / 3 % 3 - 1.0, 1.0), 1.0);
       answer[n] = hit ? hit->t : -1.0;
     });
-    contacts(*tree_);
-    contacts(geometry::TriangleTree(wavy_torus(100, 50)));  // as fine as a device is exported
+    contacts(*tree_, false);
+    const geometry::TriangleTree device(wavy_torus(100, 50));  // as fine as a device is exported
+    contacts(device, false);
+    contacts(device, true);  // the worst places: six facets each
     row_.where.clear();
   }
 
  private:
   /// Carriers of 35 um radius that look 2 um beyond it for walls, at most that far from them, at random places.
-  void contacts(const geometry::TriangleTree& tree) {
+  void contacts(const geometry::TriangleTree& tree, bool at_corners) {
     constexpr double reach = 37e-6;
-    const std::vector<Vec3> points = random_points(tree, queries_, reach);
+    const std::vector<Vec3> points = random_points(tree, queries_, reach, at_corners);
     std::vector<std::size_t> touches(points.size());
     const double seconds = seconds_of([&] {
       for_all(points, [&](std::size_t n) {
@@ -177,6 +184,7 @@ class Measurement {
       });
     });
     GeometryRow row = row_;
+    row.where = at_corners ? "corners" : "band";
     row.triangles = static_cast<long long>(tree.mesh().triangles.size());
     row.seconds = seconds;
     finish(row, "contact", static_cast<long long>(points.size()));

@@ -8,8 +8,9 @@ namespace puffin::bench {
 
 /// One measured operation. Where VTK does the same on the same points in the same run, `ratio` is ours over its.
 struct GeometryRow {
-  std::string what;   // "read", "check", "tree", "voxelize", "cut-cells", "signed-distance", ...
-  std::string where;  // points of queries: "band" (within 4 cells of the surface) or "box"
+  std::string what;  // "read", "check", "tree", "voxelize", "cut-cells", "signed-distance", ...
+  std::string
+      where;  // points of queries: "band" (within 4 cells of the surface; contacts: within reach), "corners" or "box"
   long long triangles = 0;
   long long count = 0;  // triangles, cells or queries
   int threads = 0;
