@@ -76,6 +76,17 @@ void for_uncovered(const FluidRun& run, std::span<const FluidRun> beside, Visit&
   for (; i < run.end; ++i) visit(i);
 }
 
+// Does the way from a hit onwards leave the solid again at once, through a facet that is not parallel: the tip of a
+// wedge? (Two faces that lie on one another, as those of bodies that touch, are parallel.)
+bool passes_a_tip(const TriangleTree& tree, const Hit& hit, const Vec3& from, const Vec3& along, double within) {
+  const double begin = hit.t + 1e-9;
+  const auto exit = tree.first_hit(from + begin * along, along, within);
+  if (!exit || exit->triangle == hit.triangle) return false;
+  const Vec3 in = tree.mesh().area_vector(hit.triangle).stableNormalized(),
+             out = tree.mesh().area_vector(exit->triangle).stableNormalized();
+  return in.dot(out) > -0.9999 && !tree.inside(from + (begin + 0.5 * exit->t) * along);
+}
+
 }  // namespace
 
 SurfaceError surface_error(const TriangleTree& tree, const Voxels& voxels) {
@@ -125,7 +136,8 @@ HiddenFaces hidden_faces(const TriangleTree& tree, const Voxels& voxels, const s
         const Vec3 from = voxels.centre(i, j, k) + shift, along = voxels.dx * Vec3::Unit(d);
         const auto hit = tree.first_hit(from, along, 1.0);
         if (!hit || hit->t < off || hit->t > 1.0 - off || (!openings.empty() && openings[hit->triangle])) continue;
-        const bool buried = tree.inside(from + (hit->t - off) * along) && tree.inside(from + (hit->t + off) * along);
+        const bool buried = tree.inside(from + (hit->t - off) * along) && tree.inside(from + (hit->t + off) * along) &&
+                            !passes_a_tip(tree, *hit, from, along, off);
         layers[static_cast<std::size_t>(k)].push_back({from + hit->t * along, buried});
       }
     };

@@ -243,7 +243,8 @@ Voxels voxelize(const TriangleTree& tree, double dx, const VoxelizeOptions& opti
   fill(tree, voxels);
   if (voxels.runs.empty()) {
     throw GeometryError("error: no cell centre lies inside the surface at a dx of " + millimetres(dx) +
-                        "; take a smaller dx, or check that the surface is closed");
+                        "; the surface is " + millimetres((tree.max() - tree.min()).maxCoeff()) +
+                        " long: check its unit, take a smaller dx, or check that it is closed");
   }
   Pockets pockets;
   if (!options.openings.empty()) pockets = drop_pockets(tree, options, voxels);
