@@ -5,11 +5,11 @@
 namespace puffin::cases {
 namespace {
 
-/// share/puffin of the installation that the program runs from.
+/// share/puffin/cases of the installation that the program runs from.
 std::filesystem::path installed() {
   std::error_code error;
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
-  return (program.parent_path() / "../share/puffin").lexically_normal();
+  return (program.parent_path() / "../share/puffin/cases").lexically_normal();
 }
 
 /// The folder of that name in the installation, or, where there is none, in cases/ of the source tree.

@@ -290,14 +290,12 @@ void carry_fines(const Models& models, bool now, State& s) {
     }
   }
   try {
-    lbm::advance_scalars(s.air->rows, s.fluxes, static_cast<double>(s.steps_since_scalars), options, s.scalars,
-                         s.budget);
+    const double allowed = lbm::advance_scalars(s.air->rows, s.fluxes, static_cast<double>(s.steps_since_scalars),
+                                                options, s.scalars, s.budget);
+    s.steps_per_scalar_update = models.transport_steps ? std::clamp(std::floor(allowed), 1.0, 64.0) : 1.0;
   } catch (const std::runtime_error& e) {
     diverge("%s (t = %.6g s)", e.what(), s.time);
   }
-  s.steps_per_scalar_update =
-      models.transport_steps ? std::clamp(std::floor(lbm::max_steps(s.air->rows, s.fluxes, options.cfl)), 1.0, 64.0)
-                             : 1.0;
   s.effort.scalar_steps += s.steps_since_scalars;
   s.steps_since_scalars = 0;
 }

@@ -61,15 +61,16 @@ void MeshWalls::measure_distances() {
   tbb::parallel_for(0, nodes_[1] * nodes_[2], [&](int row) {
     const int j = row % nodes_[1], k = row / nodes_[1];
     double any = std::numeric_limits<double>::infinity(), wall = any;
-    bool in = false, known = false;
+    bool in = false;  // the first node of a row lies before the box of the mesh
     for (int i = 0; i < nodes_[0]; ++i) {
       const Vector3d p = node_at(i, j, k);
       const std::size_t at = i + static_cast<std::size_t>(nodes_[0]) * row;
+      // On the same side as the node before unless the surface lies between: a short ray where a winding number would
+      // sum over many triangles. Rays find an edge that they touch, so none slips through.
+      if (i > 0 && any <= spacing_ && tree_->first_hit(node_at(i - 1, j, k), p - node_at(i - 1, j, k), 1.0))
+        in = tree_->inside(p);
       // The distance changes by at most the way between the nodes: a limit that makes the search short.
-      known = known && any > spacing_;
       any = tree_->closest(p, any + 1.001 * spacing_).distance;
-      if (!known) in = tree_->inside(p);
-      known = true;
       signed_clearance_[at] = in ? lower_bound(any) : -lower_bound(any);
       if (walls) wall = walls->closest(p, wall + 1.001 * spacing_).distance;
       if (all_walls) wall = any;

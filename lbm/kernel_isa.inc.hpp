@@ -10,6 +10,7 @@
 #include <experimental/simd>
 #include <type_traits>
 
+#include "lbm/flush_to_zero.hpp"
 #include "lbm/kernel.hpp"
 #include "lbm/vreman.hpp"
 
@@ -46,7 +47,6 @@ template <class P>
 }
 
 // The parts of this unit, in this namespace.
-#include "lbm/kernel_fluxes.inc.hpp"
 #include "lbm/kernel_gradients.inc.hpp"
 #include "lbm/kernel_pack.inc.hpp"
 #include "lbm/kernel_sweep.inc.hpp"
@@ -55,8 +55,6 @@ template <class P>
 }  // namespace
 
 // One unit per instruction set includes this file, each in its own namespace.
-FluxKernel<float> fluxes_float() { return &fluxes<float>; }
-FluxKernel<double> fluxes_double() { return &fluxes<double>; }
 WallKernel<float> walls_float() { return &walls<float>; }
 WallKernel<double> walls_double() { return &walls<double>; }
 VelocityKernel<float> velocities_float() { return &velocities<float>; }

@@ -154,19 +154,6 @@ class Batch {
   P factor_[size];
 };
 
-/// Numbers too small for the number format's normal range count as zero while this lives. Ahead of a sound wave the
-/// populations fade to such numbers, each of which costs the processor 150 cycles: a start from rest ran at half speed.
-class FlushToZero {
- public:
-  FlushToZero() : before_(_mm_getcsr()) { _mm_setcsr(before_ | 0x8040U); }
-  ~FlushToZero() { _mm_setcsr(before_); }
-  FlushToZero(const FlushToZero&) = delete;
-  FlushToZero& operator=(const FlushToZero&) = delete;
-
- private:
-  unsigned before_;
-};
-
 template <class T, class L>
 KernelReport sweep(const KernelInput<T>& in) {
   const FlushToZero flush;

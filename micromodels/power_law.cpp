@@ -13,10 +13,19 @@ PowerLaw::PowerLaw(const std::array<double, 5>& constants, Validity valid) : a_(
                                   " must be a number >= 0, as more speed cannot take less");
 }
 
-double PowerLaw::value(double speed) const {
-  return speed < a_[2] ? a_[0] * std::pow(speed, a_[1]) : a_[3] * std::pow(speed, a_[4]);
+namespace {
+
+/// A factor of zero takes nothing however steep the branch: 0 times an overflowing power would be no number.
+double branch(double factor, double speed, double exponent) {
+  return factor == 0.0 ? 0.0 : factor * std::pow(speed, exponent);
 }
 
-double PowerLaw::jump() const { return a_[3] * std::pow(a_[2], a_[4]) - a_[0] * std::pow(a_[2], a_[1]); }
+}  // namespace
+
+double PowerLaw::value(double speed) const {
+  return speed < a_[2] ? branch(a_[0], speed, a_[1]) : branch(a_[3], speed, a_[4]);
+}
+
+double PowerLaw::jump() const { return branch(a_[3], a_[2], a_[4]) - branch(a_[0], a_[2], a_[1]); }
 
 }  // namespace puffin::micromodels

@@ -18,7 +18,7 @@ void save(const State& state, Checkpoint& checkpoint);
 
 /// Into a state that was built from the same case. Throws CheckpointDamaged if a section is missing, does not suffice
 /// or contradicts itself or the state's lattice; the state may then be half changed and must be restored from another
-/// checkpoint or thrown away.
+/// checkpoint, which it is ready for, or thrown away.
 void restore(const Checkpoint& checkpoint, State& state);
 
 /// A number that two lattices share only if cells, walls and openings are the same; 0 without air.

@@ -116,6 +116,16 @@ struct Sizes {
     return scalars_fit(s);
   }
 
+  /// Into a state that was only half restored: an older checkpoint is measured by what it was built with.
+  void put_back(State& s) const {
+    s.collisions.hits.resize(triangles);
+    s.collisions.contacts.resize(ids);
+    s.scalars.amount.resize(scalars);
+    if (!s.air) return;
+    std::visit([&](auto& p) { p.f.resize(populations); }, s.air->populations);
+    s.budget.left.assign(scalars, std::vector<lbm::CompensatedSum>(patches));
+  }
+
  private:
   bool scalars_fit(const State& s) const {
     const auto each = [](const auto& lists, std::size_t size) {
@@ -158,23 +168,8 @@ void hash_in(const std::vector<T>& values, std::uint64_t& hash) {
   hash = xxh64(std::as_bytes(std::span(values)), hash);
 }
 
-}  // namespace
-
-void save(const State& state, Checkpoint& checkpoint) {
-  ByteWriter time(checkpoint.renew("time"));
-  time_fields(time, state);
-  time(state.first_motion.places(), state.first_motion.time());
-  if (state.air) {
-    ByteWriter air(checkpoint.renew("air"));
-    air_fields(air, *state.air);
-  }
-  save_carriers(state.carriers, checkpoint.renew("carriers"));
-  ByteWriter fines(checkpoint.renew("fines"));
-  fines(state.fines, state.scalars, state.budget);
-}
-
-void restore(const Checkpoint& checkpoint, State& state) {
-  const Sizes sizes(state);
+/// Throws CheckpointDamaged with a state that may have other sizes than it was built with.
+void overwrite(const Checkpoint& checkpoint, const Sizes& sizes, State& state) {
   ByteReader time(checkpoint.at("time"), "time");
   time_fields(time, state);
   std::vector<FirstMotion::Place> places;
@@ -207,6 +202,31 @@ void restore(const Checkpoint& checkpoint, State& state) {
     } catch (const std::invalid_argument& e) {
       throw CheckpointDamaged(std::string("its carriers make no sense: ") + e.what());
     }
+}
+
+}  // namespace
+
+void save(const State& state, Checkpoint& checkpoint) {
+  ByteWriter time(checkpoint.renew("time"));
+  time_fields(time, state);
+  time(state.first_motion.places(), state.first_motion.time());
+  if (state.air) {
+    ByteWriter air(checkpoint.renew("air"));
+    air_fields(air, *state.air);
+  }
+  save_carriers(state.carriers, checkpoint.renew("carriers"));
+  ByteWriter fines(checkpoint.renew("fines"));
+  fines(state.fines, state.scalars, state.budget);
+}
+
+void restore(const Checkpoint& checkpoint, State& state) {
+  const Sizes sizes(state);
+  try {
+    overwrite(checkpoint, sizes, state);
+  } catch (const CheckpointDamaged&) {
+    sizes.put_back(state);
+    throw;
+  }
 }
 
 std::uint64_t fingerprint(const State& state) {

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
+#include "lbm/flush_to_zero.hpp"
 #include "lbm/scalars/busy_runs.hpp"
 #include "lbm/scalars/check_fluxes.hpp"
 #include "lbm/scalars/diffuse_lines.hpp"
@@ -40,6 +42,7 @@ struct Update {
   void for_each_run(const Visit& visit) const {
     const auto& chunks = rows.chunks();
     tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {
+      const FlushToZero flush;
       std::vector<SweepScalar> scalars(fields.scalars());
       for (int r = chunks[c].first_run; r < chunks[c].last_run; ++r)
         if (fields.work.computed[r]) visit(rows.runs()[r], scalars);
@@ -168,6 +171,7 @@ void sweep(const Update& u, const SweepKernel& kernel, int d, double steps, cons
   // Runs whose neighbours are all in their own chunk are finished while they are still in the cache.
   const auto& chunks = u.rows.chunks();
   tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {
+    const FlushToZero flush;
     std::vector<SweepScalar> views(scalars);
     for (int r = chunks[c].first_run; r < chunks[c].last_run; ++r) {
       if (!work.computed[r]) continue;
@@ -245,8 +249,8 @@ Plan plan(const Update& u, const StepLimit& limit, double eddy, double remaining
 
 }  // namespace
 
-void advance_scalars(const Rows& rows, const FaceFluxes& fluxes, double steps, const ScalarOptions& options,
-                     ScalarFields& fields, ScalarBudget& budget) {
+double advance_scalars(const Rows& rows, const FaceFluxes& fluxes, double steps, const ScalarOptions& options,
+                       ScalarFields& fields, ScalarBudget& budget) {
   const Update u{rows, fluxes, options, fields, budget};
   check(u, steps);
   static const SweepKernel kernel = select_sweep();
@@ -256,11 +260,19 @@ void advance_scalars(const Rows& rows, const FaceFluxes& fluxes, double steps, c
 
   const double eddy = largest_eddy(fluxes);
   budget.air_mismatch = std::max(budget.air_mismatch, air_mismatch(u));
+  std::vector<LimitFound> limits;
+  double allowed = 0.0;
+  const auto found = [&] { return limits.empty() ? max_steps(rows, fluxes, options.cfl) : allowed; };
   for (double elapsed = 0.0; elapsed < steps;) {
-    if (!mark_busy_runs(rows, all, fields)) return;
+    if (!mark_busy_runs(rows, all, fields)) return found();
     prepare(u, elapsed);
-    const auto limit = [&] { return step_limit(rows, fluxes, fields.air, options.cfl, fields.work.computed); };
-    Plan p = plan(u, limit(), eddy, steps - elapsed);
+    if (elapsed == 0.0) {  // of all runs, for the caller
+      find_limits(rows, fluxes, fluxes.density, options.cfl, {}, limits);
+      allowed = strictest(limits, options.cfl, {}).steps;
+    } else {
+      find_limits(rows, fluxes, fields.air, options.cfl, fields.work.computed, limits);
+    }
+    const Plan p = plan(u, strictest(limits, options.cfl, fields.work.computed), eddy, steps - elapsed);
     if (p.any_implicit && !all) {  // lines carry it everywhere at once
       all = true;
       continue;
@@ -289,6 +301,7 @@ void advance_scalars(const Rows& rows, const FaceFluxes& fluxes, double steps, c
       (fields.work.computed[r] ? budget.cells_computed : budget.cells_skipped) += rows.runs()[r].count;
     elapsed = p.steps < steps - elapsed ? elapsed + p.steps : steps;
   }
+  return found();
 }
 
 }  // namespace puffin::lbm

@@ -32,8 +32,8 @@ double max_steps(const Rows& rows, const FaceFluxes& fluxes, double cfl);
 /// explicit; where it would cost more than half again as many sub-steps it becomes implicit line by line
 /// (diffuse_lines.hpp). Nothing is done while every scalar is empty. Same bits for any number of threads. Throws
 /// std::invalid_argument if sizes, fluxes or options are inconsistent, std::runtime_error if the fluxes would empty a
-/// cell.
-void advance_scalars(const Rows& rows, const FaceFluxes& fluxes, double steps, const ScalarOptions& options,
-                     ScalarFields& fields, ScalarBudget& budget);
+/// cell. Returns max_steps of these fluxes, which is found on the way.
+double advance_scalars(const Rows& rows, const FaceFluxes& fluxes, double steps, const ScalarOptions& options,
+                       ScalarFields& fields, ScalarBudget& budget);
 
 }  // namespace puffin::lbm

@@ -13,11 +13,11 @@
 
 namespace puffin::lbm {
 
-StepLimit step_limit(const Rows& rows, const FaceFluxes& fluxes, const std::vector<double>& air, double cfl,
-                     const std::vector<std::uint8_t>& computed) {
+void find_limits(const Rows& rows, const FaceFluxes& fluxes, const std::vector<double>& air, double cfl,
+                 const std::vector<std::uint8_t>& computed, std::vector<LimitFound>& of_run) {
   static const SweepKernel kernel = select_sweep();
   const auto& chunks = rows.chunks();
-  std::vector<LimitFound> worst(chunks.size(), {0.0, std::numeric_limits<double>::infinity()});
+  of_run.resize(rows.runs().size());
   tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {
     for (int r = chunks[c].first_run; r < chunks[c].last_run; ++r) {
       if (!computed.empty() && !computed[r]) continue;
@@ -28,15 +28,18 @@ StepLimit step_limit(const Rows& rows, const FaceFluxes& fluxes, const std::vect
         faces.open[d] = fluxes.open[d].data() + run.first;
         faces.low[d] = offset_low(run, d);
       }
-      const LimitFound found = kernel.limit(faces);
-      worst[c] = {std::max(worst[c].demand, found.demand), std::min(worst[c].least_air, found.least_air)};
+      of_run[r] = kernel.limit(faces);
     }
   });
+}
+
+StepLimit strictest(const std::vector<LimitFound>& of_run, double cfl, const std::vector<std::uint8_t>& computed) {
   StepLimit limit{0.0, std::numeric_limits<double>::infinity()};
   double most = 0.0;
-  for (const LimitFound& w : worst) {
-    most = std::max(most, w.demand);
-    limit.least_air = std::min(limit.least_air, w.least_air);
+  for (std::size_t r = 0; r < of_run.size(); ++r) {
+    if (!computed.empty() && !computed[r]) continue;
+    most = std::max(most, of_run[r].demand);
+    limit.least_air = std::min(limit.least_air, of_run[r].least_air);
   }
   limit.steps = most > 0.0 ? cfl / most : std::numeric_limits<double>::infinity();
   return limit;
@@ -44,7 +47,9 @@ StepLimit step_limit(const Rows& rows, const FaceFluxes& fluxes, const std::vect
 
 double max_steps(const Rows& rows, const FaceFluxes& fluxes, double cfl) {
   if (!(cfl > 0.0 && cfl < 1.0)) throw std::invalid_argument("the CFL number of the scalars must lie between 0 and 1");
-  return step_limit(rows, fluxes, fluxes.density, cfl, {}).steps;
+  std::vector<LimitFound> limits;
+  find_limits(rows, fluxes, fluxes.density, cfl, {}, limits);
+  return strictest(limits, cfl, {}).steps;
 }
 
 }  // namespace puffin::lbm

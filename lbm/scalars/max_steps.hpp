@@ -6,6 +6,7 @@
 
 #include "lbm/rows.hpp"
 #include "lbm/scalars/face_fluxes.hpp"
+#include "lbm/scalars/sweep.hpp"
 
 namespace puffin::lbm {
 
@@ -14,11 +15,14 @@ struct StepLimit {
   double least_air = 0.0;  // smallest air mass of a cell at the start
 };
 
-/// As max_steps of advance_scalars.hpp, over the runs marked in `computed` (empty: all), with the air mass `air` of
-/// each slot. Conditions for n steps, order x y z, net outflows N, outflows A: n A_x <= cfl theta, n A_y <= cfl (theta
-/// - n N_x), n A_z <= cfl (theta - n N_x - n N_y), n N_x <= theta/2, n (N_x + N_y) <= theta/2; and the same for z y x.
-/// All linear in n.
-StepLimit step_limit(const Rows& rows, const FaceFluxes& fluxes, const std::vector<double>& air, double cfl,
-                     const std::vector<std::uint8_t>& computed);
+/// What each run asks for, given the air mass `air` of each slot; runs that are not marked in `computed` (empty: all
+/// are) are left out. Conditions for n steps, order x y z, net outflows N, outflows A: n A_x <= cfl theta, n A_y <= cfl
+/// (theta - n N_x), n A_z <= cfl (theta - n N_x - n N_y), n N_x <= theta/2, n (N_x + N_y) <= theta/2; and the same for
+/// z y x. All linear in n.
+void find_limits(const Rows& rows, const FaceFluxes& fluxes, const std::vector<double>& air, double cfl,
+                 const std::vector<std::uint8_t>& computed, std::vector<LimitFound>& of_run);
+
+/// The strictest of them over the runs marked in `computed` (empty: all).
+StepLimit strictest(const std::vector<LimitFound>& of_run, double cfl, const std::vector<std::uint8_t>& computed);
 
 }  // namespace puffin::lbm

@@ -31,7 +31,8 @@ namespace puffin::lbm {
 /// slowly.
 inline constexpr double dust = 1e-200;
 
-/// A run of cells and its faces in the direction of the sweep; pointers are to the first cell.
+/// A run of cells and its faces in the direction of the sweep; pointers are to the first cell. Up to Rows::padding
+/// values beyond the last cell are read, none is written.
 struct SweepRun {
   int count = 0;
   std::ptrdiff_t low = 0, high = 0;    // slot offsets to the neighbours
@@ -74,7 +75,9 @@ struct SweepKernel {
 
 /// The same arithmetic, compiled for several processors: equal bits.
 SweepKernel baseline_sweep();
-SweepKernel avx2_sweep();  // null functions where the build does not contain it
+// Null functions where the build does not contain them.
+SweepKernel avx2_sweep();
+SweepKernel avx512_sweep();
 /// The best that this processor offers.
 SweepKernel select_sweep();
 

@@ -7,6 +7,7 @@ SweepKernel baseline_sweep() { return {outgoing, update, limit}; }
 
 SweepKernel select_sweep() {
 #if defined(__x86_64__)
+  if (detect_isa() == Isa::avx512 && avx512_sweep().outgoing) return avx512_sweep();
   if (detect_isa() != Isa::baseline && avx2_sweep().outgoing) return avx2_sweep();
 #endif
   return baseline_sweep();

@@ -84,15 +84,15 @@ class HealthOfAir : public HealthOf {
     }
     return "nothing was noticed within 100 steps";
   }
-  /// The place that a complaint names lies within the cells that the fault can reach before anybody looks: it spreads
-  /// one cell a step, and the report comes after at most the steps of one exchange interval (4).
+  /// The kernel looks in every step at the populations with which it begins, and so does the complaint: the cell is the
+  /// one that was spoilt. Places are printed with 5 digits, a cell is 0.25 mm wide.
   void expect_place(const std::string& complaint, const Vec3& x) const {
     ASSERT_NE(complaint.find("the air diverged at step"), std::string::npos) << complaint;
     EXPECT_NE(complaint.find("Likely causes"), std::string::npos) << complaint;
     Vec3 named;
     ASSERT_EQ(std::sscanf(complaint.c_str() + complaint.find('['), "[%lf, %lf, %lf]", &named[0], &named[1], &named[2]),
               3);
-    EXPECT_LE((named - x).cwiseAbs().maxCoeff(), 5.0 * sim_->dx) << complaint;
+    EXPECT_LE((named - x).cwiseAbs().maxCoeff(), 0.51 * sim_->dx) << complaint;
   }
   const Vec3 place_{3.1e-3, 1.1e-3, 1.1e-3};
 };
@@ -104,11 +104,9 @@ TEST_F(HealthOfAir, AValueThatIsNoNumberIsFoundWithItsCell) {
 TEST_F(HealthOfAir, ASpeedOverTheLimitIsFoundWithItsCell) { expect_place(spoilt(place_, 1, 0.8F), place_); }
 
 // -0.8: still beyond -0.5 if the time step falls by a fifth in this very step and the excess by its square. One step
-// fills a single empty cell from its neighbours again: it is noticed, and the message says that it is gone.
-TEST_F(HealthOfAir, ADensityOutOfRangeIsFound) {
-  const std::string complaint = spoilt(place_, 0, -0.8F);
-  EXPECT_NE(complaint.find("the air diverged at step"), std::string::npos) << complaint;
-  EXPECT_NE(complaint.find("out of range"), std::string::npos) << complaint;
+// fills a single empty cell from its neighbours again; it is named all the same.
+TEST_F(HealthOfAir, ADensityOutOfRangeIsFoundWithItsCellThoughTheNextStepFillsIt) {
+  expect_place(spoilt(place_, 0, -0.8F), place_);
 }
 
 TEST_F(HealthOf, CarriersThatBeganOutsideAreNotAskedToBeInside) {

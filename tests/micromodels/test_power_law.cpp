@@ -51,5 +51,12 @@ TEST(PowerLaw, says_where_it_is_valid) {
   EXPECT_FALSE(valid(law).contains(21.0));
 }
 
+// 0 v^A = 0 for every A, though v^A overflows (2^2000 > 1e308).
+TEST(PowerLaw, takes_nothing_with_a_factor_of_zero_however_steep) {
+  EXPECT_EQ(PowerLaw({0.0, 2000.0, 3.0, 0.0, 2000.0}).value(2.0), 0.0);
+  EXPECT_EQ(PowerLaw({0.0, 2000.0, 3.0, 0.0, 2000.0}).value(4.0), 0.0);
+  EXPECT_EQ(PowerLaw({0.0, 2000.0, 3.0, 0.0, 2000.0}).jump(), 0.0);
+}
+
 }  // namespace
 }  // namespace puffin::micromodels

@@ -66,6 +66,17 @@ carriers = "2 ms"
 fields = [{ what = ["velocity", "fines"], region = "slice:y=0", every = "5 ms" }]
 )toml";
 
+/// The same on coarser cells and to 8 ms: a third of the time, and as much in motion, for tests that run it often.
+inline std::string coarse_dose() {
+  std::string text = small_dose;
+  const auto replace = [&](const std::string& what, const std::string& with) {
+    text.replace(text.find(what), what.size(), with);
+  };
+  replace("dx = \"0.5 mm\"", "dx = \"0.6 mm\"");
+  replace("[stop]\ntime = \"10 ms\"", "[stop]\ntime = \"8 ms\"");
+  return text;
+}
+
 class SmallDose : public ::testing::Test {
  protected:
   void SetUp() override {

@@ -1,0 +1,71 @@
+#!/usr/bin/env python3
+"""Looks for inputs that break a reader, for a given processor time, and writes a row of what came of it.
+
+usage: search.py BUILD_DIR NAME [CPU_SECONDS] [--table FILE.csv]      (600 s)
+
+BUILD_DIR is that of the preset fuzz with the target fuzz_NAME built. libFuzzer counts the wall clock; here its processor time
+is measured, and it is started again until that is enough. What is new goes to BUILD_DIR/found/NAME. Exits 1 at a finding,
+whose input lies there as crash-..., timeout-... or oom-....
+"""
+
+import argparse
+import csv
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+LONGEST = {"stl": 20000, "case": 8000, "micromodels": 4000, "study": 4000, "table": 4000, "checkpoint": 70000}  # [byte]
+STRICT = {"UBSAN_OPTIONS": "halt_on_error=1:print_stacktrace=1", "LLVM_PROFILE_FILE": os.devnull}
+
+
+def part(program: Path, found: Path, corpus: Path, longest: int, seconds: float) -> tuple[float, str, int]:
+    """One run of libFuzzer: processor time [s], what it printed, exit code."""
+    with open(found / "log", "w+", encoding="utf-8", errors="replace") as log:
+        child = subprocess.Popen(
+            [str(program), f"-max_total_time={max(20, round(seconds))}", "-timeout=200", "-rss_limit_mb=2048",
+             f"-max_len={longest}", "-print_final_stats=1", f"-artifact_prefix={found}/", str(found / "corpus"),
+             str(corpus)],
+            stdout=log, stderr=subprocess.STDOUT, env=os.environ | STRICT)
+        _, status, usage = os.wait4(child.pid, 0)
+        log.seek(0)
+        return usage.ru_utime + usage.ru_stime, log.read(), os.waitstatus_to_exitcode(status)
+
+
+def last(pattern: str, text: str) -> int:
+    values = re.findall(pattern, text)
+    return int(values[-1]) if values else 0
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser()
+    parser.add_argument("build", type=Path)
+    parser.add_argument("name", choices=sorted(LONGEST))
+    parser.add_argument("seconds", type=float, nargs="?", default=600.0)
+    parser.add_argument("--table", type=Path)
+    given = parser.parse_args()
+    found = given.build / "found" / given.name
+    (found / "corpus").mkdir(parents=True, exist_ok=True)
+    cpu, executions, edges, corpus, code = 0.0, 0, 0, 0, 0
+    while cpu < given.seconds and code == 0:
+        used, log, code = part(given.build / "tests" / f"fuzz_{given.name}", found, HERE / "corpus" / given.name,
+                               LONGEST[given.name], given.seconds - cpu)
+        cpu += used
+        executions += last(r"stat::number_of_executed_units:\s*(\d+)", log)
+        edges, corpus = last(r"cov: (\d+)", log), last(r"corp: (\d+)", log)
+    row = [given.name, round(cpu, 1), executions, edges, corpus, "none" if code == 0 else f"exit code {code}"]
+    if given.table:
+        new = not given.table.exists()
+        with open(given.table, "a", newline="", encoding="utf-8") as file:
+            table = csv.writer(file)
+            if new:
+                table.writerow(["target", "cpu_s", "executions", "edges", "corpus", "findings"])
+            table.writerow(row)
+    print(*row, sep=",")
+    return 1 if code else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
