@@ -14,9 +14,17 @@
 namespace puffin::lbm {
 
 struct ActiveCells {
-  geometry::Voxels computed;                // `fluid` marks the computed cells
-  std::vector<std::uint8_t> centre_inside;  // same indices: 1 where the centre lies in the fluid
-  std::vector<float> solid;                 // partially saturated cells: solid share of each cell, else empty
+  geometry::Voxels computed;  // the computed cells
+  geometry::Voxels inside;    // of the same box: those whose centre lies in the fluid
+  /// Partially saturated cells: the computed cells that are solid in part, and their share; sorted by cell.
+  struct Partial {
+    std::int64_t cell = 0;  // Voxels::index
+    float solid = 0.0F;
+  };
+  std::vector<Partial> partial{};
+
+  /// Solid share of a computed cell; 0 without partially saturated cells.
+  float solid(std::int64_t cell) const;
 };
 
 /// The same cells in a box with `margin` more cells on every side that is not periodic.

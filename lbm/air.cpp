@@ -40,7 +40,7 @@ CellKinds lay_out_cells(const geometry::Voxels& voxels, const LinkGeometry& surf
   air.fluid.assign(air.rows.slots(), 0);
   for (const Run& run : air.rows.runs())
     for (int n = 0; n < run.count; ++n) {
-      const bool inside = cells.centre_inside[cells.computed.index(run.x + n, run.y, run.z)] != 0;
+      const bool inside = cells.inside.is_fluid(run.x + n, run.y, run.z);
       air.fluid[run.first + n] = inside;
       air.fluid_cells += inside;
     }

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
+#include "lbm/geometry/row_crossings.hpp"
 #include "lbm/link_schedule.hpp"
 #include "lbm/populations.hpp"
 #include "lbm/slip.hpp"
@@ -44,6 +46,13 @@ class CutFinder {
       original_.push_back(t);
     }
     if (!kept->triangles.empty()) tree_ = std::make_unique<TriangleTree>(kept);
+    Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+    for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t)
+      for (int k = 0; k < 3; ++k) {
+        low = low.cwiseMin(mesh.corner(t, k));
+        high = high.cwiseMax(mesh.corner(t, k));
+      }
+    aside_.setConstant(geometry::on_surface(low, high, rows.dx()));
     shifts_.push_back(Vec3::Zero());
     for (int d = 0; d < 3; ++d) {
       if (!rows.periodic()[d]) continue;
@@ -61,7 +70,7 @@ class CutFinder {
     const bool in_fluid = is_fluid(slot);
     bool candidate = !in_fluid;
     for (int i = 1; i < d3q19::q && !candidate; ++i) candidate = is_solid(slot + neighbour_offset(run, i));
-    const double reach = 1.4143 * rows_.dx();
+    const double reach = 1.4143 * rows_.dx() + 2.0 * aside_.norm();
     for (std::size_t k = 0; k < shifts_.size() && !candidate && tree_; ++k)
       candidate = tree_->closest(centre + shifts_[k], reach).triangle >= 0;
     if (!candidate) return found;
@@ -74,11 +83,12 @@ class CutFinder {
           found.push_back({static_cast<std::int8_t>(i), !solid, patch_near(slot), 0.5F});
         continue;
       }
-      double t = 2.0;
+      const Vec3 link = rows_.dx() * Vec3(c[0], c[1], c[2]);
+      double t = 2.0;  // of the link moved aside
       int triangle = -1;
       for (const Vec3& shift : shifts_) {
         if (!tree_) break;
-        const auto hit = tree_->first_hit(centre + shift, rows_.dx() * Vec3(c[0], c[1], c[2]), 1.0);
+        const auto hit = tree_->first_hit(centre + shift + aside_, link, 1.0);
         if (hit && hit->t < t) {
           t = hit->t;
           triangle = original_[hit->triangle];
@@ -87,9 +97,9 @@ class CutFinder {
       const auto patch = static_cast<std::int16_t>(triangle >= 0 ? surface_.patch_of_triangle[triangle] : -1);
       if (solid) {
         if (triangle < 0) ++missed;
-        found.push_back({static_cast<std::int8_t>(i), false, patch, static_cast<float>(std::clamp(t, 0.0, 1.0))});
+        found.push_back({static_cast<std::int8_t>(i), false, patch, wall_distance(t, triangle, link)});
       } else if (triangle >= 0 && t < 1.0 - 1e-9) {
-        found.push_back({static_cast<std::int8_t>(i), true, patch, static_cast<float>(t)});
+        found.push_back({static_cast<std::int8_t>(i), true, patch, wall_distance(t, triangle, link)});
       } else if (i > 6 && closed_corner(run, slot, c)) {
         found.push_back({static_cast<std::int8_t>(i), true, -1, 0.5F});
       }
@@ -98,6 +108,15 @@ class CutFinder {
   }
 
  private:
+  /// Where the link itself meets the plane of the triangle that it meets at t when moved aside; t for a grazing one.
+  float wall_distance(double t, int triangle, const Vec3& link) const {
+    if (triangle >= 0) {
+      const Vec3 normal = surface_.mesh->area_vector(triangle);
+      const double along = normal.dot(link);
+      if (std::abs(along) > 0.1 * normal.norm() * link.norm()) t += normal.dot(aside_) / along;
+    }
+    return static_cast<float>(std::clamp(t, 0.0, 1.0));
+  }
   bool is_solid(std::ptrdiff_t slot) const {
     if (rows_.is_active(slot)) return false;
     const auto c = rows_.cell(slot);
@@ -137,6 +156,7 @@ class CutFinder {
   std::unique_ptr<TriangleTree> tree_;
   std::vector<int> original_;  // triangle of the reduced mesh -> triangle of the surface
   std::vector<Vec3> shifts_;
+  Vec3 aside_;  // where voxelize asked: a link in the plane of a wall runs beside it, not in it
 };
 
 /// How a wall at distance q interpolates: weight of f_out(x-c), or of f_own where q >= 1/2 (far); zero, so half-way

@@ -28,7 +28,7 @@ PartialCells find_partial_cells(const Rows& rows, const ActiveCells& cells, cons
     const Run& run = rows.runs()[r];
     bool joined = false;
     for (int n = 0; n < run.count; ++n) {
-      const float eps = cells.solid[cells.computed.index(run.x + n, run.y, run.z)];
+      const float eps = cells.solid(cells.computed.index(run.x + n, run.y, run.z));
       if (!(eps > 0.0F)) {
         joined = false;
         continue;

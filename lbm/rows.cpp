@@ -3,59 +3,61 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "lbm/d3q19.hpp"
-
 namespace puffin::lbm {
 
 namespace {
+
 int wrapped(int i, int n) { return (i % n + n) % n; }
+
+/// The cells of a row (ghost rows too) that must be stored: active ones and every cell they stream to or from, as
+/// maximal intervals. Neighbours in two of y, z at once are streamed to straight, without a step along x.
+void stored_cells(const geometry::Voxels& voxels, int j, int k, std::vector<geometry::FluidRun>& stored) {
+  stored.clear();
+  for (int cz = -1; cz <= 1; ++cz)
+    for (int cy = -1; cy <= 1; ++cy) {
+      const int more = cy != 0 && cz != 0 ? 0 : 1;
+      for (const geometry::FluidRun& run : voxels.row(j + cy, k + cz))
+        stored.push_back({run.begin - more, run.end + more});
+    }
+  std::sort(stored.begin(), stored.end(), [](const auto& a, const auto& b) { return a.begin < b.begin; });
+  std::size_t kept = 0;
+  for (const geometry::FluidRun& run : stored) {
+    if (kept > 0 && run.begin <= stored[kept - 1].end)
+      stored[kept - 1].end = std::max(stored[kept - 1].end, run.end);
+    else
+      stored[kept++] = run;
+  }
+  stored.resize(kept);
+}
+
 }  // namespace
 
 Rows::Rows(const geometry::Voxels& voxels, std::array<bool, 3> periodic)
     : origin_(voxels.origin), dx_(voxels.dx), box_(voxels.size), periodic_(periodic) {
-  const auto [nx, ny, nz] = box_;
-  // A bordered copy of the voxels marks what must be stored: active cells and every cell they stream to or from.
-  const int sx = nx + 2, sy = ny + 2, sz = nz + 2;
-  const auto at = [&](int i, int j, int k) {
-    return (i + 1) + static_cast<std::size_t>(sx) * ((j + 1) + static_cast<std::size_t>(sy) * (k + 1));
-  };
-  std::vector<Kind> mark(static_cast<std::size_t>(sx) * sy * sz, Kind::padding);
-  for (int k = 0; k < nz; ++k)
-    for (int j = 0; j < ny; ++j)
-      for (int i = 0; i < nx; ++i) {
-        if (!voxels.fluid[voxels.index(i, j, k)]) continue;
-        mark[at(i, j, k)] = Kind::active;
-        ++active_;
-        for (const auto& c : d3q19::velocity) {
-          Kind& neighbour = mark[at(i + c[0], j + c[1], k + c[2])];
-          if (neighbour == Kind::padding) neighbour = Kind::ghost;
-        }
-      }
+  const int ny = box_[1], nz = box_[2], sy = ny + 2, sz = nz + 2;
+  active_ = voxels.cells();
   if (active_ == 0) throw std::invalid_argument("no cell centre lies inside the surface: dx is too large");
 
   // Rows: along x every cell beside an active cell of the row or of a neighbouring row must be contiguous with it, so a
-  // stretch is a maximal interval of non-padding marks, widened where (x, y+cy, z+cz) of a run would fall outside.
+  // stretch is a maximal interval of stored cells, widened where (x, y+cy, z+cz) of a run would fall outside.
   // D3Q19 has no (1,1,1) links, but a run's shift must hold for all of cx = -1, 0, 1 that are used with (cy,cz).
   row_begin_.assign(static_cast<std::size_t>(sy) * sz + 1, 0);
   std::ptrdiff_t next = padding;
+  std::vector<geometry::FluidRun> stored;
   for (int k = -1; k <= nz; ++k)
     for (int j = -1; j <= ny; ++j) {
       row_begin_[(j + 1) + static_cast<std::size_t>(sy) * (k + 1)] = static_cast<std::int32_t>(stretches_.size());
-      for (int i = -1; i <= nx;) {
-        if (mark[at(i, j, k)] == Kind::padding) {
-          ++i;
-          continue;
-        }
-        int end = i;
-        while (end <= nx && mark[at(end, j, k)] != Kind::padding) ++end;
+      stored_cells(voxels, j, k, stored);
+      const auto fluid = voxels.row(j, k);
+      auto first_fluid = fluid.begin();
+      for (const geometry::FluidRun& stretch : stored) {
+        while (first_fluid != fluid.end() && first_fluid->begin < stretch.begin) ++first_fluid;
         // The first active cell lies on a vector boundary (in rows of ghosts alone the second cell: it is beside one).
-        int lead = 0;
-        while (lead < end - i && mark[at(i + lead, j, k)] != Kind::active) ++lead;
-        if (lead == end - i) lead = 1;
+        const bool ghosts = first_fluid == fluid.end() || first_fluid->begin >= stretch.end;
+        const int lead = ghosts ? 1 : first_fluid->begin - stretch.begin;
         next += (padding - (next + lead) % padding) % padding;
-        stretches_.push_back({i, end - i, next});
-        next += end - i + 1;  // never adjacent to the following stretch
-        i = end;
+        stretches_.push_back({stretch.begin, stretch.end - stretch.begin, next});
+        next += stretch.end - stretch.begin + 1;  // never adjacent to the following stretch
       }
     }
   row_begin_.back() = static_cast<std::int32_t>(stretches_.size());
@@ -67,7 +69,7 @@ Rows::Rows(const geometry::Voxels& voxels, std::array<bool, 3> periodic)
       const std::size_t row = (j + 1) + static_cast<std::size_t>(sy) * (k + 1);
       for (int s = row_begin_[row]; s < row_begin_[row + 1]; ++s)
         for (int n = 0; n < stretches_[s].count; ++n) {
-          kind_[stretches_[s].first + n] = mark[at(stretches_[s].x + n, j, k)];
+          kind_[stretches_[s].first + n] = Kind::ghost;
           cell_[stretches_[s].first + n] = {stretches_[s].x + n, j, k};
         }
     }
@@ -76,13 +78,9 @@ Rows::Rows(const geometry::Voxels& voxels, std::array<bool, 3> periodic)
   // used with cx = 0 alone, and there the stretch covers x itself, which is all that is read.
   for (int k = 0; k < nz; ++k)
     for (int j = 0; j < ny; ++j)
-      for (int i = 0; i < nx;) {
-        if (mark[at(i, j, k)] != Kind::active) {
-          ++i;
-          continue;
-        }
-        Run run{i, j, k, 0, slot(i, j, k), {}};
-        while (i < nx && mark[at(i, j, k)] == Kind::active) ++i, ++run.count;
+      for (const geometry::FluidRun& fluid : voxels.row(j, k)) {
+        Run run{fluid.begin, j, k, fluid.end - fluid.begin, slot(fluid.begin, j, k), {}};
+        std::fill_n(kind_.begin() + run.first, run.count, Kind::active);
         for (int cy = -1; cy <= 1; ++cy)
           for (int cz = -1; cz <= 1; ++cz) run.shift[cy + 1][cz + 1] = slot(run.x, j + cy, k + cz) - run.first;
         runs_.push_back(run);

@@ -9,6 +9,7 @@
 #include "lbm/geometry/shells.hpp"
 #include "lbm/geometry/stl.hpp"
 #include "lbm/geometry/surface_check.hpp"
+#include "lbm/geometry/t_junctions.hpp"
 #include "lbm/geometry/weld.hpp"
 
 namespace puffin::lbm::geometry {
@@ -162,6 +163,12 @@ std::vector<Repair> repair(TriangleMesh& mesh, const RepairOptions& options) {
   note(std::move(welded));
   note(remove_degenerate(mesh));
   note(remove_duplicates(mesh));
+
+  Repair split{.what = "split facets", .where = split_at_t_junctions(mesh)};
+  split.count = split.where.size();
+  if (split.where.size() > Defect::places) split.where.resize(Defect::places);
+  split.message = "split facets: " + std::to_string(split.count) + " corners of neighbours lay on their edges";
+  note(std::move(split));
 
   Repair turned{.what = "turned facets"};
   turn_facets(mesh, disagreeing(mesh, Adjacency(mesh)), turned);

@@ -18,15 +18,16 @@ struct RepairOptions {
 /// One thing that was done.
 struct Repair {
   std::string what{};  // "welded vertices", "removed degenerate facets", "removed duplicate facets",
-                       // "turned facets", "filled holes"
+                       // "split facets", "turned facets", "filled holes"
   std::size_t count = 0;
   std::vector<Vec3> where{};  // [m] one place each, at most Defect::places
   std::string message{};
 };
 
-/// Welds, removes degenerate and duplicate facets, turns facets until neighbours agree and the volume of each part that
-/// is not inside another is positive, and closes small holes with facets in the solid "filled-hole". Returns what was
-/// done, in order; what it cannot mend is left for check_surface to name.
+/// Welds, removes degenerate and duplicate facets, splits facets where corners of others lie on their edges, turns
+/// facets until neighbours agree and the volume of each part that is not inside another is positive, and closes small
+/// holes with facets in the solid "filled-hole". Returns what was done, in order; what it cannot mend is left for
+/// check_surface to name.
 std::vector<Repair> repair(TriangleMesh& mesh, const RepairOptions& options = {});
 
 }  // namespace puffin::lbm::geometry

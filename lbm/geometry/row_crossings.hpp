@@ -1,5 +1,5 @@
 #pragma once
-// Where the rows of a voxel box cross the triangles. Used by what classifies cells.
+// Where the rows of a voxel box cross the triangles. Used by what classifies cells and links.
 
 #include <algorithm>
 #include <cmath>

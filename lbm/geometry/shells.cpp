@@ -32,6 +32,23 @@ std::vector<TriangleMesh> parts(const TriangleMesh& mesh, const Shells& shells) 
   return result;
 }
 
+// Of some points of a shell the one farthest from the surface of another.
+Vec3 farthest_from(const TriangleTree& other, const TriangleMesh& shell) {
+  constexpr std::size_t samples = 32;
+  Vec3 best = shell.vertices[0];
+  double away = other.closest(best).distance;
+  const std::size_t n = shell.triangles.size();
+  for (std::size_t k = 0; k < std::min(n, samples); ++k) {
+    const int t = static_cast<int>(k * n / std::min(n, samples));
+    const Vec3 p = (shell.corner(t, 0) + shell.corner(t, 1) + shell.corner(t, 2)) / 3.0;
+    const double distance = other.closest(p).distance;
+    if (distance <= away) continue;
+    away = distance;
+    best = p;
+  }
+  return best;
+}
+
 }  // namespace
 
 Shells find_shells(const TriangleMesh& mesh, const Adjacency& adjacency) {
@@ -91,10 +108,13 @@ std::vector<int> nesting(const TriangleMesh& mesh, const Shells& shells) {
   for (int outer = 0; outer < shells.count; ++outer) {
     std::unique_ptr<TriangleTree> tree;
     for (int inner = 0; inner < shells.count; ++inner) {
-      const Vec3& p = part[inner].vertices[0];
-      if (inner == outer || (p.array() < low[outer].array()).any() || (p.array() > high[outer].array()).any()) continue;
+      // What lies inside lies inside the box, but for the rounding of single precision.
+      const Vec3 rounding = Vec3::Constant(1e-6 * (high[outer] - low[outer]).norm());
+      if (inner == outer || (low[inner].array() < (low[outer] - rounding).array()).any() ||
+          (high[inner].array() > (high[outer] + rounding).array()).any())
+        continue;
       if (!tree) tree = std::make_unique<TriangleTree>(part[outer]);
-      if (tree->inside(p)) ++depth[inner];
+      if (tree->inside(farthest_from(*tree, part[inner]))) ++depth[inner];
     }
   }
   return depth;
@@ -112,8 +132,8 @@ std::vector<Defect> check_shells(const TriangleMesh& mesh, const Adjacency& adja
   Defect inside_out{.kind = "inside out", .fatal = true};
   Defect separate{.kind = "disconnected part"};
   Defect nested{.kind = "nested shell"};
-  auto add = [](Defect& d, const Vec3& where, const std::string& message) {
-    if (d.count++ == 0) d.message = message;
+  auto add = [](Defect& d, const Vec3& where, const std::string& message, bool has_message = false) {
+    if (d.count++ == 0 && !has_message) d.message = message;
     if (d.where.size() < Defect::places) d.where.push_back(where);
   };
   for (int s = 0; s < shells.count; ++s) {
@@ -124,10 +144,15 @@ std::vector<Defect> check_shells(const TriangleMesh& mesh, const Adjacency& adja
               "--repair");
     }
     if (depth[s] > 0) {
-      add(nested, first[s],
-          "the part of the surface at " + place_text(first[s]) + " lies inside another; " +
-              (volume[s] < 0.0 ? "it is taken as a body in the flow"
-                               : "it changes nothing, because it points outwards"));
+      const bool twice = closed && depth[s] % 2 == 1 && volume[s] > 0.0;
+      const std::string lies = "the part of the surface at " + place_text(first[s]) + " lies inside another";
+      if (twice && !nested.fatal) {
+        nested.message = lies +
+                         " and points outwards: it encloses fluid a second time, and areas and volumes would "
+                         "count it twice; remove it, or turn it round if it is a body in the flow";
+        nested.fatal = true;
+      }
+      add(nested, first[s], lies + (volume[s] < 0.0 ? "; it is taken as a body in the flow" : ""), nested.fatal);
     } else if (s > 0) {
       add(separate, first[s],
           "the part of the surface at " + place_text(first[s]) + " is not connected to the first part");

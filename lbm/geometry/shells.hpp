@@ -19,7 +19,9 @@ Shells find_shells(const TriangleMesh& mesh, const Adjacency& adjacency);
 /// Enclosed volume of each shell [m^3], see enclosed_volume.
 std::vector<double> shell_volumes(const TriangleMesh& mesh, const Shells& shells);
 
-/// For each shell the number of other shells around it (whose winding number at its first corner exceeds 1/2).
+/// For each shell the number of other shells around it: whose winding number exceeds 1/2 at that one of its first
+/// corner and the centres of 32 of its triangles which lies farthest from them, so that shells that touch are told
+/// apart.
 std::vector<int> nesting(const TriangleMesh& mesh, const Shells& shells);
 
 /// The defects "inside out", "disconnected part", "nested shell". `closed`: volumes mean something.

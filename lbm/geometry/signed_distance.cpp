@@ -69,34 +69,34 @@ Vec3 normal_at(const TriangleTree& tree, int triangle, Region region) {
   return sum;
 }
 
-// Every third bit, from the 21 lowest.
+// Every third bit, from the ten lowest.
 std::uint64_t spread(std::uint64_t v) {
-  v &= 0x1FFFFF;
-  v = (v | (v << 32)) & 0x1F00000000FFFFull;
-  v = (v | (v << 16)) & 0x1F0000FF0000FFull;
-  v = (v | (v << 8)) & 0x100F00F00F00F00Full;
-  v = (v | (v << 4)) & 0x10C30C30C30C30C3ull;
-  return (v | (v << 2)) & 0x1249249249249249ull;
+  v &= 0x3FF;
+  v = (v | (v << 16)) & 0x030000FF;
+  v = (v | (v << 8)) & 0x0300F00F;
+  v = (v | (v << 4)) & 0x030C30C3;
+  return (v | (v << 2)) & 0x09249249;
 }
 
-// Indices of the points along a Morton curve through their bounding box.
+// Indices of the points along a Morton curve through the 1024^3 parts of their bounding box.
 std::vector<std::uint32_t> along_curve(std::span<const Vec3> points) {
   Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
   for (const Vec3& p : points) {
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);
   }
-  const double scale = 2097151.0 / std::max((high - low).maxCoeff(), std::numeric_limits<double>::min());
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> keys(points.size());
+  const double scale = 1023.0 / std::max((high - low).maxCoeff(), std::numeric_limits<double>::min());
+  std::vector<std::uint64_t> keys(points.size());  // place on the curve, then the index
   tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t n) {
     const Vec3 s = scale * (points[n] - low);
-    keys[n] = {spread(static_cast<std::uint64_t>(s.x())) | spread(static_cast<std::uint64_t>(s.y())) << 1 |
-                   spread(static_cast<std::uint64_t>(s.z())) << 2,
-               static_cast<std::uint32_t>(n)};
+    keys[n] = (spread(static_cast<std::uint64_t>(s.x())) | spread(static_cast<std::uint64_t>(s.y())) << 1 |
+               spread(static_cast<std::uint64_t>(s.z())) << 2)
+                  << 32 |
+              n;
   });
   tbb::parallel_sort(keys);
   std::vector<std::uint32_t> order(points.size());
-  for (std::size_t n = 0; n < keys.size(); ++n) order[n] = keys[n].second;
+  for (std::size_t n = 0; n < keys.size(); ++n) order[n] = static_cast<std::uint32_t>(keys[n]);
   return order;
 }
 
@@ -108,13 +108,14 @@ SignedDistance::SignedDistance(std::shared_ptr<const TriangleTree> tree) : tree_
 }
 
 double SignedDistance::sign(const Vec3& p, const Closest& nearest) const {
-  if (simple_ && nearest.triangle >= 0 && tree_->adjacency().edge(nearest.triangle, 0) >= 0) {
-    const TriangleMesh& m = tree_->mesh();
+  if (simple_ && nearest.triangle >= 0) {
     // Most points lie straight before or behind a face, and then its normal is enough.
-    const Vec3 face = m.area_vector(nearest.triangle), away = p - nearest.point;
+    const Vec3 &face = nearest.outward, away = p - nearest.point;
     const double straight = face.dot(away);
     if (straight * straight > (1.0 - 1e-12) * face.squaredNorm() * away.squaredNorm())
       return straight < 0.0 ? 1.0 : -1.0;
+    if (tree_->adjacency().edge(nearest.triangle, 0) < 0) return tree_->inside(p) ? 1.0 : -1.0;
+    const TriangleMesh& m = tree_->mesh();
     const auto on = nearest_on_triangle(p, m.corner(nearest.triangle, 0), m.corner(nearest.triangle, 1),
                                         m.corner(nearest.triangle, 2));
     const Vec3 normal = normal_at(*tree_, nearest.triangle, on.region);
@@ -136,8 +137,10 @@ std::vector<double> SignedDistance::at(std::span<const Vec3> points, double limi
   std::vector<double> result(points.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, order.size(), 2048), [&](const auto& r) {
     Closest last;
+    constexpr std::size_t ahead = 8;
     for (std::size_t n = r.begin(); n < r.end(); ++n) {
       const Vec3& p = points[order[n]];
+      if (n + ahead < r.end()) __builtin_prefetch(&points[order[n + ahead]]);
       // The last nearest point lies on the surface; a little more, so that its own triangle is found again.
       const double bound = last.triangle < 0 ? limit : std::min(limit, (p - last.point).norm() * (1.0 + 1e-9));
       const Closest nearest = tree_->closest(p, bound);

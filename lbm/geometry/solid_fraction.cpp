@@ -123,8 +123,7 @@ std::vector<Piece> cut_all(const TriangleMesh& mesh, const Voxels& box, const st
 bool near_fluid(const Voxels& voxels, int i, int j, int k) {
   for (int c = -1; c <= 1; ++c)
     for (int b = -1; b <= 1; ++b)
-      for (int a = -1; a <= 1; ++a)
-        if (voxels.is_fluid(i + a, j + b, k + c)) return true;
+      if (voxels.any_fluid(i - 1, i + 2, j + b, k + c)) return true;
   return false;
 }
 
@@ -166,14 +165,12 @@ std::vector<CutCell> cut_cells(const TriangleTree& tree, const Voxels& voxels, c
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, candidates.size(), 256), [&](const auto& r) {
     for (std::size_t n = r.begin(); n < r.end(); ++n) {
       auto& [cut, opening] = candidates[n];
-      const int nx = voxels.size[0], ny = voxels.size[1];
-      const int i = static_cast<int>(cut.cell % nx), j = static_cast<int>((cut.cell / nx) % ny),
-                k = static_cast<int>(cut.cell / nx / ny);
+      const auto [i, j, k] = voxels.place(cut.cell);
       if (!near_fluid(voxels, i, j, k)) continue;
       if (overlaps) cut.fluid = union_fraction(tree, voxels.centre(i, j, k), voxels.dx, cut.fluid);
       cut.fluid = std::clamp(cut.fluid, 0.0, 1.0);
       cut.beyond = std::clamp(cut.beyond, 0.0, 1.0 - cut.fluid);
-      const double centre = voxels.fluid[static_cast<std::size_t>(cut.cell)];
+      const double centre = voxels.is_fluid(i, j, k) ? 1.0 : 0.0;
       keep[n] = std::abs(cut.fluid - centre) > negligible || (opening && cut.fluid > negligible);
     }
   });

@@ -19,8 +19,8 @@ struct CutCell {
   double solid() const { return 1.0 - fluid - beyond; }
 };
 
-/// Every cell whose share of fluid differs by more than 1e-9 from that of its centre (voxels.fluid: 1 or 0), and every
-/// cell that an opening cuts, sorted by cell; all others are wholly fluid or wholly solid as `voxels` says. Cells
+/// Every cell whose share of fluid differs by more than 1e-9 from that of its centre (1 or 0, as `voxels` says), and
+/// every cell that an opening cuts, sorted by cell; all others are wholly fluid or wholly solid as `voxels` says. Cells
 /// farther than a neighbour (of 26) from any fluid cell are left out: those of dropped pockets, and the tips of gaps
 /// that hold no cell centre. `openings`: per triangle 1 = part of an opening; empty: none.
 ///

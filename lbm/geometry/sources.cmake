@@ -12,9 +12,13 @@ set(PUFFIN_GEOMETRY_SOURCES
   geometry/stl.cpp
   geometry/stl_text.cpp
   geometry/surface_check.cpp
+  geometry/t_junctions.cpp
   geometry/tree_build.cpp
   geometry/tree_features.cpp
   geometry/tree_rays.cpp
+  geometry/tree_search.cpp
+  geometry/tree_search_avx2.cpp
+  geometry/tree_search_baseline.cpp
   geometry/tree_winding.cpp
   geometry/triangle_tree.cpp
   geometry/union_fraction.cpp

@@ -141,6 +141,8 @@ TriangleMesh parse_stl(const std::string& name, std::string_view bytes, double u
     throw StlError(name + ": error: more than 700 million triangles; coarsen the surface");
   }
   TriangleMesh mesh;
+  if (bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF"))
+    throw StlError(name + ": error: the file is text in UTF-16; save it as ASCII or UTF-8");
   if (!has_binary_length(bytes) && begins_like_text(bytes)) {
     parse_stl_text(name, bytes, unit, mesh);
   } else {

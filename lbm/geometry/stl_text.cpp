@@ -33,9 +33,9 @@ class Parser {
       if (same_word(word, "facet")) {
         facet();
       } else if (same_word(word, "solid")) {
-        open_solid(rest_of_line());
+        open_solid(name_in_line());
       } else if (same_word(word, "endsolid")) {
-        rest_of_line();
+        skip_name();
         solid_ = -1;
       } else if (is_facet_word(word)) {
         fail(quoted(word) + " outside a facet; is the file damaged? Export it again");
@@ -86,6 +86,41 @@ class Parser {
     while (begin < end && is_space(text_[begin])) ++begin;
     while (end > begin && is_space(text_[end - 1])) --end;
     return text_.substr(begin, end - begin);
+  }
+
+  // The name of a solid: the rest of its line, or what comes before the first facet where a file has no line breaks.
+  std::string_view name_in_line() {
+    std::string_view line = rest_of_line();
+    const std::size_t facet = first_facet(line);
+    if (facet == std::string_view::npos) return line;
+    at_ = place_of(line) + facet;
+    line = line.substr(0, facet);
+    while (!line.empty() && is_space(line.back())) line.remove_suffix(1);
+    return line;
+  }
+
+  // Behind "endsolid": to the end of the line, or to the next solid where a file has no line breaks.
+  void skip_name() {
+    const std::string_view line = rest_of_line();
+    const std::size_t facet = first_facet(line);
+    if (facet == std::string_view::npos) return;
+    std::size_t to = facet;
+    for (std::size_t at = 0; at + 5 < facet; ++at)
+      if ((at == 0 || is_space(line[at - 1])) && same_word(line.substr(at, 5), "solid") && is_space(line[at + 5]))
+        to = at;
+    at_ = place_of(line) + to;
+  }
+
+  std::size_t place_of(std::string_view part) const { return static_cast<std::size_t>(part.data() - text_.data()); }
+
+  // Where "facet normal" stands in a line.
+  static std::size_t first_facet(std::string_view line) {
+    for (std::size_t at = 0; at + 12 <= line.size(); ++at) {
+      if ((at > 0 && !is_space(line[at - 1])) || !same_word(line.substr(at, 5), "facet")) continue;
+      const std::size_t next = std::min(line.find_first_not_of(" \t", at + 5), line.size());
+      if (next > at + 5 && same_word(line.substr(next, 6), "normal")) return at;
+    }
+    return std::string_view::npos;
   }
 
   void open_solid(std::string_view name) {

@@ -9,6 +9,7 @@
 #include "lbm/geometry/adjacency.hpp"
 #include "lbm/geometry/self_intersection.hpp"
 #include "lbm/geometry/shells.hpp"
+#include "lbm/geometry/t_junctions.hpp"
 
 namespace puffin::lbm::geometry {
 
@@ -62,6 +63,14 @@ void check_edges(const TriangleMesh& mesh, const Adjacency& adjacency, std::vect
                     " point to different sides of the surface; make the normals agree or use --repair");
     }
   }
+  if (hole.count > 0) {
+    const std::vector<TJunction> junctions = find_t_junctions(mesh, adjacency);
+    if (!junctions.empty())
+      hole.message += "; " + std::to_string(junctions.size()) +
+                      " corners lie on edges of other triangles, the first at " +
+                      place_text(mesh.vertices[junctions[0].vertex]) +
+                      ": meshes of different fineness meet there, and --repair splits their triangles";
+  }
   for (Defect* d : {&hole, &crowded, &turned}) {
     if (d->count > 0) found.push_back(std::move(*d));
   }
@@ -94,8 +103,12 @@ void check_facets(const TriangleMesh& mesh, std::vector<Defect>& found) {
   for (std::size_t i = 1; i < keys.size(); ++i) {
     if (keys[i].first != keys[i - 1].first) continue;
     const int t = keys[i].second;
+    // A copy with the same sense counts the area of its patch twice. One turned round is the common face of two bodies.
+    const auto around = [&](int s) { return mesh.area_vector(s).dot(mesh.area_vector(t)); };
+    duplicate.fatal = duplicate.fatal || around(keys[i - 1].second) > 0.0;
     add_place(duplicate, (mesh.corner(t, 0) + mesh.corner(t, 1) + mesh.corner(t, 2)) / 3.0,
-              "the triangle at " + place_text(mesh.corner(t, 0)) + " is there more than once; --repair removes copies");
+              "the triangle at " + place_text(mesh.corner(t, 0)) +
+                  " is there more than once, and areas and volumes would count it as often; --repair removes copies");
   }
   for (Defect* d : {&duplicate, &degenerate}) {
     if (d->count > 0) found.push_back(std::move(*d));

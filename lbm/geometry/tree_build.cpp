@@ -26,6 +26,22 @@ TriangleTree::Builder::Builder(const TriangleMesh& mesh, const Vec3& centre, dou
   nodes = build(all);
   boxes_ = {};
   mids_ = {};
+  number_leaves();
+}
+
+// Until here a leaf is named by its first triangle.
+void TriangleTree::Builder::number_leaves() {
+  std::vector<std::int32_t> by_slot;
+  by_slot.reserve(order.size() + order.size() / 4 + lanes);
+  for (TreeNode& node : nodes)
+    for (int c = 0; c < lanes; ++c) {
+      if (node.count[c] == 0 || node.child[c] >= 0) continue;
+      const auto first = order.begin() + ~node.child[c];
+      node.child[c] = ~static_cast<std::int32_t>(by_slot.size() / lanes);
+      by_slot.insert(by_slot.end(), first, first + node.count[c]);
+      by_slot.insert(by_slot.end(), static_cast<std::size_t>(lanes - node.count[c]), -1);
+    }
+  order = std::move(by_slot);
 }
 
 TriangleTree::Builder::Box TriangleTree::Builder::bounds(int begin, int end) const {
@@ -78,43 +94,53 @@ std::array<TriangleTree::Builder::Range, 2> TriangleTree::Builder::split(const R
   }
 
   int middle = range.begin + range.size() / 2;
-  if (best_axis >= 0) {
+  const auto split_at_middle = [&](int axis) {
+    std::nth_element(order.begin() + range.begin, order.begin() + middle, order.begin() + range.end, [&](int a, int b) {
+      return mids_[a][axis] != mids_[b][axis] ? mids_[a][axis] < mids_[b][axis] : a < b;
+    });
+  };
+  if (best_axis >= 0 && range.size() < whole_leaves_below) {
+    const auto left = std::count_if(order.begin() + range.begin, order.begin() + range.end,
+                                    [&](int t) { return bin_of(best_axis, t) < best_bin; });
+    const int most = (range.size() - 1) / leaf_size;  // full leaves that leave something for the other part
+    const int full = std::clamp((static_cast<int>(left) + leaf_size / 2) / leaf_size, 1, most);
+    middle = range.begin + full * leaf_size;
+    split_at_middle(best_axis);
+  } else if (best_axis >= 0) {
     const auto m = std::partition(order.begin() + range.begin, order.begin() + range.end,
                                   [&](int t) { return bin_of(best_axis, t) < best_bin; });
     middle = static_cast<int>(m - order.begin());
   } else {  // too deep or all in one point: halves
     int axis = 0;
     extent.maxCoeff(&axis);
-    std::nth_element(order.begin() + range.begin, order.begin() + middle, order.begin() + range.end, [&](int a, int b) {
-      return mids_[a][axis] != mids_[b][axis] ? mids_[a][axis] < mids_[b][axis] : a < b;
-    });
+    split_at_middle(axis);
   }
   return {Range{range.begin, middle, range.depth + 1, bounds(range.begin, middle)},
           Range{middle, range.end, range.depth + 1, bounds(middle, range.end)}};
 }
 
-TriangleTree::Node TriangleTree::Builder::empty_node() {
-  Node node;
+TreeNode TriangleTree::Builder::empty_node() {
+  TreeNode node;
   for (int d = 0; d < 3; ++d) {
-    node.low[d].fill(std::numeric_limits<float>::infinity());
-    node.high[d].fill(-std::numeric_limits<float>::infinity());
+    std::fill_n(node.low[d], lanes, std::numeric_limits<float>::infinity());
+    std::fill_n(node.high[d], lanes, -std::numeric_limits<float>::infinity());
   }
-  node.child.fill(0);
-  node.count.fill(0);
+  std::fill_n(node.child, lanes, 0);
+  std::fill_n(node.count, lanes, 0);
   return node;
 }
 
-void TriangleTree::Builder::set_child(Node& node, int c, const Box& box) const {
+void TriangleTree::Builder::set_child(TreeNode& node, int c, const Box& box) const {
   for (int d = 0; d < 3; ++d) {
     node.low[d][c] = static_cast<float>(box.low[d] - centre_[d] - widen_);
     node.high[d][c] = static_cast<float>(box.high[d] - centre_[d] + widen_);
   }
 }
 
-std::vector<TriangleTree::Node> TriangleTree::Builder::build(const Range& range) {
-  // Split the largest part until there are four or all are leaves.
+std::vector<TreeNode> TriangleTree::Builder::build(const Range& range) {
+  // Split the largest part until there are eight or all are leaves.
   std::vector<Range> parts{range};
-  while (parts.size() < 4) {
+  while (parts.size() < lanes) {
     auto largest = parts.end();
     for (auto p = parts.begin(); p != parts.end(); ++p) {
       if (p->size() <= leaf_size) continue;
@@ -126,8 +152,8 @@ std::vector<TriangleTree::Node> TriangleTree::Builder::build(const Range& range)
     parts.insert(largest + 1, halves[1]);
   }
 
-  std::vector<Node> result{empty_node()};
-  std::array<std::vector<Node>, 4> subtrees;
+  std::vector<TreeNode> result{empty_node()};
+  std::array<std::vector<TreeNode>, lanes> subtrees;
   const int n = static_cast<int>(parts.size());
   auto subtree = [&](int c) {
     if (parts[c].size() > leaf_size) subtrees[c] = build(parts[c]);
@@ -138,7 +164,7 @@ std::vector<TriangleTree::Node> TriangleTree::Builder::build(const Range& range)
     for (int c = 0; c < n; ++c) subtree(c);
   }
   for (int c = 0; c < n; ++c) {
-    Node& root = result[0];
+    TreeNode& root = result[0];
     set_child(root, c, parts[c].box);
     root.count[c] = parts[c].size();
     if (subtrees[c].empty()) {
@@ -147,8 +173,8 @@ std::vector<TriangleTree::Node> TriangleTree::Builder::build(const Range& range)
     }
     const auto offset = static_cast<std::int32_t>(result.size());
     root.child[c] = offset;
-    for (Node node : subtrees[c]) {
-      for (int k = 0; k < 4; ++k) {
+    for (TreeNode node : subtrees[c]) {
+      for (int k = 0; k < lanes; ++k) {
         if (node.count[k] > 0 && node.child[k] >= 0) node.child[k] += offset;
       }
       result.push_back(node);

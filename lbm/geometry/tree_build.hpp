@@ -5,18 +5,20 @@
 
 namespace puffin::lbm::geometry {
 
-/// Sorts the triangles of a mesh into nodes with four children, split by the surface area heuristic in bins (Wald,
-/// IEEE Symp. Interactive Ray Tracing 33 (2007)). Ranges above `serial_below` triangles are split in parallel; where to
-/// split never depends on threads.
+/// Sorts the triangles of a mesh into nodes with eight children, split by the surface area heuristic in bins (Wald,
+/// IEEE Symp. Interactive Ray Tracing 33 (2007)). Leaves are full where they can be: small ranges are split
+/// after a whole number of leaves. Ranges above `serial_below` triangles are split in parallel; where to split never
+/// depends on threads.
 class TriangleTree::Builder {
  public:
   Builder(const TriangleMesh& mesh, const Vec3& centre, double widen);
 
-  std::vector<std::int32_t> order;  // leaf order -> triangle
-  std::vector<Node> nodes;          // root first, children after their parent
+  std::vector<std::int32_t> order;  // leaf * lanes + lane -> triangle, -1 where a leaf is not full
+  std::vector<TreeNode> nodes;      // root first, children after their parent
 
  private:
-  static constexpr int bins = 16, leaf_size = 4, serial_below = 8192, deepest_by_area = 40;
+  static constexpr int bins = 16, leaf_size = lanes, serial_below = 8192, deepest_by_area = 40,
+                       whole_leaves_below = 1024;
 
   struct Box {
     Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity());
@@ -42,9 +44,10 @@ class TriangleTree::Builder {
 
   Box bounds(int begin, int end) const;
   std::array<Range, 2> split(const Range& range);
-  std::vector<Node> build(const Range& range);  // the subtree, its root first
-  static Node empty_node();
-  void set_child(Node& node, int c, const Box& box) const;
+  std::vector<TreeNode> build(const Range& range);  // the subtree, its root first
+  void number_leaves();
+  static TreeNode empty_node();
+  void set_child(TreeNode& node, int c, const Box& box) const;
 
   Vec3 centre_;
   double widen_;

@@ -80,7 +80,7 @@ std::optional<Hit> TriangleTree::first_hit(const Vec3& from, const Vec3& directi
     std::int32_t child, count;
     float near;
   };
-  std::array<Entry, 256> stack;
+  std::array<Entry, 512> stack;
   int top = 0;
   stack[top++] = {0, 1, 0.0f};
   auto limit = [&] {
@@ -93,7 +93,7 @@ std::optional<Hit> TriangleTree::first_hit(const Vec3& from, const Vec3& directi
     const Entry e = stack[--top];
     if (e.near > far) continue;
     if (e.child < 0) {
-      const int begin = ~e.child;
+      const int begin = ~e.child * lanes;
       for (int i = begin; i < begin + e.count; ++i) {
         const auto& [a, b, c] = corners_[i];
         const double t = crossing(shear(a), shear(b), shear(c));
@@ -105,9 +105,9 @@ std::optional<Hit> TriangleTree::first_hit(const Vec3& from, const Vec3& directi
       far = limit();
       continue;
     }
-    const Node& node = nodes_[e.child];
-    std::array<float, 4> near, leave;
-    for (int c = 0; c < 4; ++c) {
+    const TreeNode& node = nodes_[e.child];
+    std::array<float, lanes> near, leave;
+    for (int c = 0; c < lanes; ++c) {
       float n = 0.0f, l = std::numeric_limits<float>::max();
       for (int d = 0; d < 3; ++d) {
         const float t0 = (node.low[d][c] - o[d]) * inverse[d], t1 = (node.high[d][c] - o[d]) * inverse[d];
@@ -118,7 +118,7 @@ std::optional<Hit> TriangleTree::first_hit(const Vec3& from, const Vec3& directi
       leave[c] = l * (1.0f + 1e-6f);
     }
     const int first = top;
-    for (int c = 0; c < 4; ++c) {
+    for (int c = 0; c < lanes; ++c) {
       if (node.count[c] == 0 || near[c] > leave[c] || near[c] > far) continue;
       int at = top++;
       for (; at > first && stack[at - 1].near < near[c]; --at) stack[at] = stack[at - 1];

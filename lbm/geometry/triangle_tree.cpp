@@ -1,5 +1,7 @@
 #include "lbm/geometry/triangle_tree.hpp"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
 
 #include <algorithm>
@@ -7,7 +9,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "lbm/geometry/node_bounds.hpp"
 #include "lbm/geometry/tree_build.hpp"
 #include "lbm/geometry/triangle_distance.hpp"
 
@@ -15,12 +16,28 @@ namespace puffin::lbm::geometry {
 
 namespace {
 
-// Room for the deepest tree the builder makes: at most 40 splits by area and 31 by halving, two a level, three siblings
-// left behind a level.
-constexpr int stack_size = 256;
-
-// Single precision arithmetic on boxes may be off by this fraction; bounds are slackened by it.
-constexpr float slack = 1e-6f;
+// A triangle in its own frame, for lane c of a leaf.
+void set_lane(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& centre, int lane, LeafTriangles& leaf) {
+  const Vec3 ab = b - a, ac = c - a;
+  Vec3 x = ab.norm() > 0.0 ? ab.stableNormalized() : ac.stableNormalized();
+  if (!(x.squaredNorm() > 0.5)) x = Vec3::UnitX();
+  Vec3 y = (ac - ac.dot(x) * x).stableNormalized();
+  y = (y - y.dot(x) * x).stableNormalized();  // a needle leaves mere rounding to build on
+  if (!(y.squaredNorm() > 0.5)) y = x.unitOrthogonal();
+  const Vec3 z = x.cross(y);
+  for (int d = 0; d < 3; ++d) {
+    leaf.corner[d][lane] = static_cast<float>(a[d] - centre[d]);
+    leaf.x[d][lane] = static_cast<float>(x[d]);
+    leaf.y[d][lane] = static_cast<float>(y[d]);
+    leaf.z[d][lane] = static_cast<float>(z[d]);
+  }
+  const auto inverse = [](double squared) { return squared > 1e-36 ? static_cast<float>(1.0 / squared) : 0.0F; };
+  leaf.b[lane] = static_cast<float>(ab.dot(x));
+  leaf.c[0][lane] = static_cast<float>(ac.dot(x));
+  leaf.c[1][lane] = static_cast<float>(std::max(ac.dot(y), 0.0));
+  leaf.inverse_bc[lane] = inverse((c - b).squaredNorm());
+  leaf.inverse_ca[lane] = inverse(ac.squaredNorm());
+}
 
 }  // namespace
 
@@ -50,63 +67,85 @@ TriangleTree::TriangleTree(std::shared_ptr<const TriangleMesh> mesh) : mesh_(std
       [&] { adjacency_ = Adjacency(*mesh_); });
   nodes_ = std::move(builder->nodes);
   order_ = std::move(builder->order);
-  corners_.reserve(order_.size());
-  for (const int t : order_) corners_.push_back({mesh_->corner(t, 0), mesh_->corner(t, 1), mesh_->corner(t, 2)});
+  set_leaves();
   set_dipoles();
 }
 
-Closest TriangleTree::closest(const Vec3& p, double limit) const {
-  const Vec3 q = p - centre_;
-  const auto point4 = four_times(static_cast<float>(q.x()), static_cast<float>(q.y()), static_cast<float>(q.z()));
-  double best = limit * limit;
-  Closest result;
-
-  struct Entry {
-    std::int32_t child, count;
-    float bound;  // of the squared distance
-  };
-  std::array<Entry, stack_size> stack;
-  int top = 0;
-  stack[top++] = {0, 1, 0.0f};
-  while (top > 0) {
-    const Entry entry = stack[--top];
-    if (entry.bound > best) continue;
-    if (entry.child < 0) {
-      const int begin = ~entry.child;
-      for (int i = begin; i < begin + entry.count; ++i) {
-        const auto& [a, b, c] = corners_[i];
-        const Vec3 point = nearest_on_triangle(p, a, b, c).point;
-        const double d2 = (point - p).squaredNorm();
-        if (d2 <= best && (d2 < best || result.triangle < 0)) {
-          best = d2;
-          result.point = point;
-          result.triangle = order_[i];
-        }
+void TriangleTree::set_leaves() {
+  corners_.resize(order_.size());
+  leaves_.resize(order_.size() / lanes);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, leaves_.size(), 1024), [&](const auto& r) {
+    for (std::size_t leaf = r.begin(); leaf < r.end(); ++leaf)
+      for (int lane = 0; lane < lanes; ++lane) {
+        const std::size_t slot = leaf * lanes + lane;
+        const int t = order_[slot];
+        if (t < 0) continue;
+        corners_[slot] = {mesh_->corner(t, 0), mesh_->corner(t, 1), mesh_->corner(t, 2)};
+        set_lane(corners_[slot].a, corners_[slot].b, corners_[slot].c, centre_, lane, leaves_[leaf]);
       }
-      continue;
-    }
-    const Node& node = nodes_[entry.child];
-    const Lanes bound = squared_distances(node, point4) * (1.0f - slack);
-    const int first = top;
-    for (int c = 0; c < 4; ++c) {
-      if (node.count[c] == 0 || bound[c] > best) continue;
-      int at = top++;
-      for (; at > first && stack[at - 1].bound < bound[c]; --at) stack[at] = stack[at - 1];
-      stack[at] = {node.child[c], node.count[c], bound[c]};
-    }
+  });
+}
+
+// Distances of the search. Its coordinates, frames and sums are rounded to 2^-24 each; the sum of all is below
+// 1.5e-6 of the way from the point over the centre to any corner.
+TreeSearch TriangleTree::search(const Vec3& p, double limit) const {
+  const Vec3 q = p - centre_;
+  TreeSearch s;
+  s.nodes = nodes_.data();
+  s.leaves = leaves_.data();
+  for (int d = 0; d < 3; ++d) s.point[d] = static_cast<float>(q[d]);
+  s.tolerance = static_cast<float>(4e-6 * (q.lpNorm<1>() + 0.5 * (max_ - min_).sum()));
+  s.limit = squared_limit(limit, s.tolerance);
+  return s;
+}
+
+float TriangleTree::squared_limit(double distance, float tolerance) {
+  const double d = distance + tolerance;
+  return static_cast<float>(std::min(1.00001 * d * d, 1e38));
+}
+
+Closest TriangleTree::closest(const Vec3& p, double limit) const {
+  struct Nearest {
+    const TriangleTree& tree;
+    const Vec3& p;
+    float tolerance;
+    double best;  // squared
+    Closest result{};
+    int slot = -1;
+  };
+  TreeSearch s = search(p, limit);
+  Nearest nearest{*this, p, s.tolerance, limit * limit};
+  s.context = &nearest;
+  s.found = [](void* context, int slot, float so_far) {
+    Nearest& n = *static_cast<Nearest*>(context);
+    const auto& [a, b, c] = n.tree.corners_[slot];
+    const Vec3 point = nearest_on_triangle(n.p, a, b, c).point;
+    const double d2 = (point - n.p).squaredNorm();
+    const int triangle = n.tree.order_[slot];
+    if (d2 > n.best || (d2 == n.best && n.result.triangle >= 0 && triangle > n.result.triangle)) return so_far;
+    n.best = d2;
+    n.result.point = point;
+    n.result.triangle = triangle;
+    n.slot = slot;
+    return squared_limit(std::sqrt(d2), n.tolerance);
+  };
+  tree_searches().nearest_first(s);
+  if (nearest.slot >= 0) {
+    const auto& [a, b, c] = corners_[nearest.slot];
+    nearest.result.distance = std::sqrt(nearest.best);
+    nearest.result.outward = (b - a).cross(c - a);
   }
-  if (result.triangle >= 0) result.distance = std::sqrt(best);
-  return result;
+  return nearest.result;
 }
 
 void TriangleTree::overlapping(const Vec3& low, const Vec3& high, std::vector<int>& out) const {
-  std::array<std::int32_t, stack_size> stack;
+  std::array<std::int32_t, 512> stack;
   int top = 0;
   stack[top++] = 0;
   const Vec3 l = low - centre_, h = high - centre_;
   while (top > 0) {
-    const Node& node = nodes_[stack[--top]];
-    for (int c = 0; c < 4; ++c) {
+    const TreeNode& node = nodes_[stack[--top]];
+    for (int c = 0; c < lanes; ++c) {
       if (node.count[c] == 0) continue;
       bool meets = true;
       for (int d = 0; d < 3; ++d) meets = meets && node.low[d][c] <= h[d] && node.high[d][c] >= l[d];
@@ -115,7 +154,7 @@ void TriangleTree::overlapping(const Vec3& low, const Vec3& high, std::vector<in
         stack[top++] = node.child[c];
         continue;
       }
-      for (int i = ~node.child[c]; i < ~node.child[c] + node.count[c]; ++i) {
+      for (int i = ~node.child[c] * lanes; i < ~node.child[c] * lanes + node.count[c]; ++i) {
         const auto& [a, b, e] = corners_[i];
         if ((a.cwiseMin(b).cwiseMin(e).array() <= high.array()).all() &&
             (a.cwiseMax(b).cwiseMax(e).array() >= low.array()).all()) {

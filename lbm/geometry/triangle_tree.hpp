@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "lbm/geometry/adjacency.hpp"
+#include "lbm/geometry/tree_search.hpp"
 #include "lbm/geometry/triangle_mesh.hpp"
 
 namespace puffin::lbm::geometry {
@@ -18,6 +19,7 @@ struct Closest {
   Vec3 point = Vec3::Zero();
   double distance = std::numeric_limits<double>::infinity();
   int triangle = -1;
+  Vec3 outward = Vec3::Zero();  // the triangle's area_vector
 };
 
 /// A crossing of a ray: from + t * direction lies on `triangle`.
@@ -52,7 +54,7 @@ class TriangleTree {
   const Vec3& min() const { return min_; }  // bounding box [m]
   const Vec3& max() const { return max_; }
 
-  /// Nearest point of the surface to p within `limit` [m].
+  /// Nearest point of the surface to p within `limit` [m]; of triangles equally near, that of the lowest index.
   Closest closest(const Vec3& p, double limit = std::numeric_limits<double>::infinity()) const;
 
   /// Smallest t in [0, t_max] at which from + t * direction meets a triangle; either side counts. Watertight after
@@ -69,10 +71,10 @@ class TriangleTree {
   /// |winding number| > 1/2.
   bool inside(const Vec3& p) const;
 
-  /// Appends every contact place within `reach` [m] of `centre`, each once: faces, and those edges and vertices that
-  /// are a local minimum of the distance over all triangles that share them (so never an edge between coplanar
-  /// triangles or in a concave corner). Triangles t with (*skip_triangle)[t] != 0 do not exist for this query.
-  /// The mesh must be welded.
+  /// Appends every contact place within `reach` [m] of `centre`, each once: faces, and those edges and vertices (given
+  /// as the lowest of their triangles) that are a local minimum of the distance over all triangles that share them (so
+  /// never an edge between coplanar triangles or in a concave corner). Triangles t with (*skip_triangle)[t] != 0 do not
+  /// exist for this query. The mesh must be welded.
   void near_features(const Vec3& centre, double reach, const std::vector<char>* skip_triangle,
                      std::vector<Feature>& out, Side side = Side::both) const;
 
@@ -80,13 +82,6 @@ class TriangleTree {
   void overlapping(const Vec3& low, const Vec3& high, std::vector<int>& out) const;
 
  private:
-  // Four children side by side. Boxes are relative to centre_, in single precision, widened so that rounding never
-  // loses a triangle. child >= 0: node; child < 0: leaf of count[c] triangles starting at ~child; empty: count 0.
-  struct Node {
-    std::array<std::array<float, 4>, 3> low, high;
-    std::array<std::int32_t, 4> child;
-    std::array<std::int32_t, 4> count;
-  };
   // Far field of one child, expanded around its area-weighted centre: sum of the area vectors A_t and, of sum A_t
   // (c_t - centre)^T with the triangles' centres c_t, the trace and the symmetric part (xx, yy, zz, xy, yz, zx).
   struct Dipole {
@@ -98,15 +93,20 @@ class TriangleTree {
     Vec3 a, b, c;
   };
   class Builder;
+  void set_leaves();
   void set_dipoles();
+  TreeSearch search(const Vec3& p, double limit) const;
+  static float squared_limit(double distance, float tolerance);
 
   std::shared_ptr<const TriangleMesh> mesh_;
   Adjacency adjacency_;
   Vec3 min_ = Vec3::Zero(), max_ = Vec3::Zero(), centre_ = Vec3::Zero();
-  std::vector<Node> nodes_;
-  std::vector<std::array<Dipole, 4>> dipoles_;
-  std::vector<Corners> corners_;     // in leaf order
-  std::vector<std::int32_t> order_;  // leaf order -> triangle
+  std::vector<TreeNode> nodes_;
+  std::vector<LeafTriangles> leaves_;
+  std::vector<std::array<Dipole, lanes>> dipoles_;
+  // By slot: leaf * lanes + lane. Slots without a triangle have order_ -1.
+  std::vector<Corners> corners_;
+  std::vector<std::int32_t> order_;  // slot -> triangle
 };
 
 }  // namespace puffin::lbm::geometry

@@ -21,17 +21,28 @@ struct LayerSum {
   std::size_t faces = 0;
 };
 
+// Calls visit(run, j, number of the run) for the runs of a layer.
 template <class Visit>
 void for_layer(const Voxels& voxels, int k, Visit&& visit) {
-  const int nx = voxels.size[0], ny = voxels.size[1];
-  for (int j = 0; j < ny; ++j)
-    for (int i = 0; i < nx; ++i)
-      if (voxels.fluid[static_cast<std::size_t>(voxels.index(i, j, k))]) visit(i, j);
+  for (int j = 0; j < voxels.size[1]; ++j)
+    for (const FluidRun& run : voxels.row(j, k)) visit(run, j, static_cast<std::size_t>(&run - voxels.runs.data()));
 }
 
-// Cells whose centre lies within half a diagonal of some triangle's box: only these can have the surface beside them.
-std::vector<char> near_surface(const TriangleMesh& mesh, const Voxels& voxels) {
-  std::vector<char> near(voxels.fluid.size(), 0);
+// How many fluid cells come before each run.
+std::vector<std::size_t> cells_before(const Voxels& voxels) {
+  std::vector<std::size_t> before(voxels.runs.size());
+  std::size_t sum = 0;
+  for (std::size_t r = 0; r < before.size(); ++r) {
+    before[r] = sum;
+    sum += static_cast<std::size_t>(voxels.runs[r].end - voxels.runs[r].begin);
+  }
+  return before;
+}
+
+// Fluid cells whose centre lies within half a diagonal of some triangle's box: only these can have the surface beside
+// them. By number of the fluid cell.
+std::vector<char> near_surface(const TriangleMesh& mesh, const Voxels& voxels, const std::vector<std::size_t>& before) {
+  std::vector<char> near(voxels.cells(), 0);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto& tri = mesh.triangles[t];
     const Vec3 &a = mesh.vertices[tri[0]], &b = mesh.vertices[tri[1]], &c = mesh.vertices[tri[2]];
@@ -44,9 +55,36 @@ std::vector<char> near_surface(const TriangleMesh& mesh, const Voxels& voxels) {
     }
     for (int k = low[2]; k <= high[2]; ++k)
       for (int j = low[1]; j <= high[1]; ++j)
-        for (int i = low[0]; i <= high[0]; ++i) near[static_cast<std::size_t>(voxels.index(i, j, k))] = 1;
+        for (const FluidRun& run : voxels.row(j, k)) {
+          const std::size_t number = before[static_cast<std::size_t>(&run - voxels.runs.data())];
+          for (int i = std::max(low[0], run.begin); i < std::min(high[0] + 1, run.end); ++i)
+            near[number + static_cast<std::size_t>(i - run.begin)] = 1;
+        }
   }
   return near;
+}
+
+// Calls visit(i) for the cells of a run that have no fluid cell at the same i in `beside`.
+template <class Visit>
+void for_uncovered(const FluidRun& run, std::span<const FluidRun> beside, Visit&& visit) {
+  int i = run.begin;
+  for (const FluidRun& other : beside) {
+    for (; i < std::min(other.begin, run.end); ++i) visit(i);
+    i = std::max(i, other.end);
+    if (i >= run.end) return;
+  }
+  for (; i < run.end; ++i) visit(i);
+}
+
+// Does the way from a hit onwards leave the solid again at once, through a facet that is not parallel: the tip of a
+// wedge? (Two faces that lie on one another, as those of bodies that touch, are parallel.)
+bool passes_a_tip(const TriangleTree& tree, const Hit& hit, const Vec3& from, const Vec3& along, double within) {
+  const double begin = hit.t + 1e-9;
+  const auto exit = tree.first_hit(from + begin * along, along, within);
+  if (!exit || exit->triangle == hit.triangle) return false;
+  const Vec3 in = tree.mesh().area_vector(hit.triangle).stableNormalized(),
+             out = tree.mesh().area_vector(exit->triangle).stableNormalized();
+  return in.dot(out) > -0.9999 && !tree.inside(from + (begin + 0.5 * exit->t) * along);
 }
 
 }  // namespace
@@ -55,16 +93,19 @@ SurfaceError surface_error(const TriangleTree& tree, const Voxels& voxels) {
   std::vector<LayerSum> layers(static_cast<std::size_t>(voxels.size[2]));
   tbb::parallel_for(0, voxels.size[2], [&](int k) {
     LayerSum& sum = layers[static_cast<std::size_t>(k)];
-    for_layer(voxels, k, [&](int i, int j) {
-      for (int d = 0; d < 3; ++d)
-        for (const int step : {-1, 1}) {
-          const std::array<int, 3> to{i + (d == 0) * step, j + (d == 1) * step, k + (d == 2) * step};
-          if (voxels.is_fluid(to[0], to[1], to[2])) continue;
-          const double away = tree.closest(voxels.centre(i, j, k) + 0.5 * step * voxels.dx * Vec3::Unit(d)).distance;
-          sum.distance += away;
-          sum.largest = std::max(sum.largest, away);
-          ++sum.faces;
-        }
+    for_layer(voxels, k, [&](const FluidRun& run, int j, std::size_t) {
+      const auto measure = [&](int i, const Vec3& towards) {
+        const double away = tree.closest(voxels.centre(i, j, k) + 0.5 * voxels.dx * towards).distance;
+        sum.distance += away;
+        sum.largest = std::max(sum.largest, away);
+        ++sum.faces;
+      };
+      measure(run.begin, -Vec3::UnitX());
+      measure(run.end - 1, Vec3::UnitX());
+      for (const int step : {-1, 1}) {
+        for_uncovered(run, voxels.row(j + step, k), [&](int i) { measure(i, step * Vec3::UnitY()); });
+        for_uncovered(run, voxels.row(j, k + step), [&](int i) { measure(i, step * Vec3::UnitZ()); });
+      }
     });
   });
   SurfaceError error;
@@ -81,23 +122,28 @@ HiddenFaces hidden_faces(const TriangleTree& tree, const Voxels& voxels, const s
   constexpr double off = 1e-3;  // of a cell: a centre that near to the surface lies on it
   // Where voxelize asked: a row of centres in the plane of a wall runs beside it, not in it.
   const Vec3 shift = Vec3::Constant(on_surface(tree.min(), tree.max(), voxels.dx));
-  const std::vector<char> near = near_surface(tree.mesh(), voxels);
+  const std::vector<std::size_t> before = cells_before(voxels);
+  const std::vector<char> near = near_surface(tree.mesh(), voxels, before);
   struct Found {
     Vec3 where;
     bool buried;
   };
   std::vector<std::vector<Found>> layers(static_cast<std::size_t>(voxels.size[2]));
   tbb::parallel_for(0, voxels.size[2], [&](int k) {
-    for_layer(voxels, k, [&](int i, int j) {
-      if (!near[static_cast<std::size_t>(voxels.index(i, j, k))]) return;
+    const auto look_at = [&](int i, int j) {
       for (int d = 0; d < 3; ++d) {
         if (!voxels.is_fluid(i + (d == 0), j + (d == 1), k + (d == 2))) continue;
         const Vec3 from = voxels.centre(i, j, k) + shift, along = voxels.dx * Vec3::Unit(d);
         const auto hit = tree.first_hit(from, along, 1.0);
         if (!hit || hit->t < off || hit->t > 1.0 - off || (!openings.empty() && openings[hit->triangle])) continue;
-        const bool buried = tree.inside(from + (hit->t - off) * along) && tree.inside(from + (hit->t + off) * along);
+        const bool buried = tree.inside(from + (hit->t - off) * along) && tree.inside(from + (hit->t + off) * along) &&
+                            !passes_a_tip(tree, *hit, from, along, off);
         layers[static_cast<std::size_t>(k)].push_back({from + hit->t * along, buried});
       }
+    };
+    for_layer(voxels, k, [&](const FluidRun& run, int j, std::size_t r) {
+      for (int i = run.begin; i < run.end; ++i)
+        if (near[before[r] + static_cast<std::size_t>(i - run.begin)]) look_at(i, j);
     });
   });
   HiddenFaces faces;
@@ -147,7 +193,7 @@ Convergence convergence(const TriangleTree& tree, const Voxels& finest) {
         break;  // no centre inside any more
       }
     const Voxels& voxels = n == 0 ? finest : coarse;
-    const auto cells = static_cast<double>(std::count(voxels.fluid.begin(), voxels.fluid.end(), 1));
+    const auto cells = static_cast<double>(voxels.cells());
     c.dx.push_back(dx);
     c.volume_error.push_back(std::abs(cells * dx * dx * dx / exact - 1.0));
     c.surface_error.push_back(surface_error(tree, voxels).mean);

@@ -24,8 +24,8 @@ struct HiddenFaces {
   std::vector<Vec3> buried_where{};
 };
 /// `openings`: per triangle 1 = part of an opening; empty: none. A face is buried if the winding number on both of its
-/// sides, a thousandth of a cell away, is beyond 1/2: bodies that overlap or share a face. In a flow it would be a
-/// wall.
+/// sides, a thousandth of a cell away, is beyond 1/2: bodies that overlap or share a face (and not the tip of a wedge).
+/// In a flow it would be a wall.
 HiddenFaces hidden_faces(const TriangleTree& tree, const Voxels& voxels, const std::vector<char>& openings = {});
 
 /// Throws GeometryError with the place and a remedy if `faces.buried` > 0.

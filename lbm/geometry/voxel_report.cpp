@@ -87,7 +87,7 @@ VoxelReport voxel_report(const TriangleTree& tree, const Voxels& voxels, const P
                          const std::vector<std::string>& openings, const Pockets& dropped) {
   const TriangleMesh& mesh = tree.mesh();
   VoxelReport report;
-  report.cells_fluid = static_cast<std::size_t>(std::count(voxels.fluid.begin(), voxels.fluid.end(), 1));
+  report.cells_fluid = voxels.cells();
   report.volume_stl = std::abs(enclosed_volume(mesh));
   report.volume_voxels = static_cast<double>(report.cells_fluid) * voxels.dx * voxels.dx * voxels.dx;
   report.area_stl = surface_area(mesh);

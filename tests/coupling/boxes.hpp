@@ -18,9 +18,7 @@ lbm::Rows box(std::array<int, 3> size, double dx, Fluid fluid, std::array<bool, 
   voxels.origin = {1e-3, -2e-3, 3e-3};
   voxels.dx = dx;
   voxels.size = size;
-  for (int k = 0; k < size[2]; ++k)
-    for (int j = 0; j < size[1]; ++j)
-      for (int i = 0; i < size[0]; ++i) voxels.fluid.push_back(fluid(i, j, k) ? 1 : 0);
+  voxels.fill(fluid);
   return lbm::Rows(voxels, periodic);
 }
 

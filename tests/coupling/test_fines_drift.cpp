@@ -56,9 +56,7 @@ struct TurnedBox {
     const int n = static_cast<int>(3e-3 / dx);
     v.size = {n, n, n};
     v.origin = Vector3d::Constant(-0.5 * dx * (n - 1) + 0.013 * dx);
-    for (int k = 0; k < n; ++k)
-      for (int j = 0; j < n; ++j)
-        for (int i = 0; i < n; ++i) v.fluid.push_back(tree->inside(v.centre(i, j, k)));
+    v.fill([&](int i, int j, int k) { return tree->inside(v.centre(i, j, k)); });
     rows = lbm::Rows(v);
     fluxes = still_air(rows);
     walls = find_wall_cells(rows, fluxes, *tree, std::vector<char>(12, 0));

@@ -42,13 +42,10 @@ inline BoxScene make_box(const geometry::Vec3& length, double dx, std::array<Bou
     v.size[d] = static_cast<int>(std::lround(length[d] / dx)) + (periodic ? 0 : 2);
     v.origin[d] = dx * ((periodic ? 0.5 : -0.5) + offset[d]);
   }
-  v.fluid.assign(static_cast<std::size_t>(v.size[0]) * v.size[1] * v.size[2], 0);
-  for (int k = 0; k < v.size[2]; ++k)
-    for (int j = 0; j < v.size[1]; ++j)
-      for (int i = 0; i < v.size[0]; ++i) {
-        const Vec3 x = v.centre(i, j, k);
-        v.fluid[v.index(i, j, k)] = (x.array() > 0.0).all() && (x.array() < length.array()).all();
-      }
+  v.fill([&](int i, int j, int k) {
+    const Vec3 x = v.centre(i, j, k);
+    return (x.array() > 0.0).all() && (x.array() < length.array()).all();
+  });
   return scene;
 }
 

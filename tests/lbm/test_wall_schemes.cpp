@@ -69,14 +69,11 @@ BoxScene two_chambers() {
   }
   auto& v = scene.voxels;
   v.size[0] += 11;
-  v.fluid.assign(static_cast<std::size_t>(v.size[0]) * v.size[1] * v.size[2], 0);
-  for (int k = 0; k < v.size[2]; ++k)
-    for (int j = 0; j < v.size[1]; ++j)
-      for (int i = 0; i < v.size[0]; ++i) {
-        const Vec3 x = v.centre(i, j, k);
-        const bool across = x[1] > 0 && x[1] < 7 && x[2] > 0 && x[2] < 7;
-        v.fluid[v.index(i, j, k)] = across && ((x[0] > 0 && x[0] < 8) || (x[0] > 11 && x[0] < 19));
-      }
+  v.fill([&](int i, int j, int k) {
+    const Vec3 x = v.centre(i, j, k);
+    const bool across = x[1] > 0 && x[1] < 7 && x[2] > 0 && x[2] < 7;
+    return across && ((x[0] > 0 && x[0] < 8) || (x[0] > 11 && x[0] < 19));
+  });
   return scene;
 }
 

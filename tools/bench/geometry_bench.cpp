@@ -62,8 +62,10 @@ double seconds_of(Work&& work) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-/// Points at most `reach` from random places of the surface, or anywhere in the bounding box.
-std::vector<Vec3> random_points(const geometry::TriangleTree& tree, std::size_t count, double reach) {
+/// Points at most `reach` from random places of the surface (`at_corners`: from random corners of triangles), or
+/// anywhere in the bounding box.
+std::vector<Vec3> random_points(const geometry::TriangleTree& tree, std::size_t count, double reach,
+                                bool at_corners = false) {
   std::mt19937_64 random(17);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   std::uniform_int_distribution<int> triangle(0, static_cast<int>(tree.mesh().triangles.size()) - 1);
@@ -72,8 +74,11 @@ std::vector<Vec3> random_points(const geometry::TriangleTree& tree, std::size_t 
     const Vec3 share(unit(random), unit(random), unit(random));
     if (reach > 0.0) {
       const int t = triangle(random);
-      points.push_back(tree.mesh().corner(t, 0) +
-                       reach * (2.0 * unit(random) - 1.0) * Vec3(share - Vec3::Constant(0.5)).normalized());
+      const Vec3 &a = tree.mesh().corner(t, 0), &b = tree.mesh().corner(t, 1), &c = tree.mesh().corner(t, 2);
+      double u = unit(random), v = unit(random);
+      if (u + v > 1.0) u = 1.0 - u, v = 1.0 - v;
+      const Vec3 place = at_corners ? a : Vec3(a + u * (b - a) + v * (c - a));
+      points.push_back(place + reach * (2.0 * unit(random) - 1.0) * Vec3(share - Vec3::Constant(0.5)).normalized());
     } else {
       points.push_back(tree.min() + share.cwiseProduct(tree.max() - tree.min()));
     }
@@ -83,15 +88,14 @@ std::vector<Vec3> random_points(const geometry::TriangleTree& tree, std::size_t 
 
 class Measurement {
  public:
-  Measurement(bool quick, const std::function<void(const GeometryRow&)>& done)
+  /// 4 across^2 triangles.
+  Measurement(int across, bool quick, const std::function<void(const GeometryRow&)>& done)
       : done_(done), queries_(quick ? 100'000 : 1'000'000), compared_(quick ? 5'000 : 20'000) {
     row_.threads = oneapi::tbb::info::default_concurrency();
-    const int across = quick ? 160 : 500;
-    const geometry::TriangleMesh mesh = wavy_torus(2 * across, across);
-    row_.triangles = static_cast<long long>(mesh.triangles.size());
-    dx_ = std::cbrt(geometry::enclosed_volume(mesh) / (quick ? 1e6 : 1e7));
+    mesh_ = wavy_torus(2 * across, across);
+    row_.triangles = static_cast<long long>(mesh_.triangles.size());
+    dx_ = std::cbrt(geometry::enclosed_volume(mesh_) / (quick ? 1e6 : 1e7));
     file_ = std::filesystem::temp_directory_path() / ("puffin-bench-" + std::to_string(::getpid()) + ".stl");
-    geometry::write_stl(file_.string(), mesh, true);
   }
   ~Measurement() {
     std::error_code ignored;
@@ -101,19 +105,20 @@ class Measurement {
   Measurement& operator=(const Measurement&) = delete;
 
   void from_file_to_cells() {
-    geometry::TriangleMesh mesh;
-    timed("read", row_.triangles, [&] { mesh = geometry::read_stl(file_.string()); });
-    timed("check", row_.triangles, [&] { geometry::check_surface(mesh); });
-    timed("tree", row_.triangles, [&] { tree_ = std::make_shared<geometry::TriangleTree>(std::move(mesh)); });
+    geometry::write_stl(file_.string(), mesh_, true);
+    mesh_ = {};
+    timed("read", row_.triangles, [&] { mesh_ = geometry::read_stl(file_.string()); });
+    timed("check", row_.triangles, [&] { geometry::check_surface(mesh_); });
+    timed("tree", row_.triangles, [&] { build_tree(); });
     geometry::Voxels voxels;
     const double seconds = seconds_of([&] { voxels = geometry::voxelize(*tree_, dx_); });
-    long long fluid = 0;
-    for (const auto f : voxels.fluid) fluid += f;
-    report("voxelize", fluid, seconds);
+    report("voxelize", static_cast<long long>(voxels.cells()), seconds);
     std::vector<geometry::CutCell> cut;
     const double cutting = seconds_of([&] { cut = geometry::cut_cells(*tree_, voxels); });
     report("cut-cells", static_cast<long long>(cut.size()), cutting);
   }
+
+  void build_tree() { tree_ = std::make_shared<geometry::TriangleTree>(std::move(mesh_)); }
 
   void distances() {
     std::unique_ptr<geometry::SignedDistance> distance;
@@ -157,16 +162,18 @@ class Measurement {
       const auto hit = tree_->first_hit(points[n], dx_ * Vec3(n % 3 - 1.0, n / 3 % 3 - 1.0, 1.0), 1.0);
       answer[n] = hit ? hit->t : -1.0;
     });
-    contacts(*tree_);
-    contacts(geometry::TriangleTree(wavy_torus(100, 50)));  // as fine as a device is exported
+    contacts(*tree_, false);
+    const geometry::TriangleTree device(wavy_torus(100, 50));  // as fine as a device is exported
+    contacts(device, false);
+    contacts(device, true);  // the worst places: six facets each
     row_.where.clear();
   }
 
  private:
   /// Carriers of 35 um radius that look 2 um beyond it for walls, at most that far from them, at random places.
-  void contacts(const geometry::TriangleTree& tree) {
+  void contacts(const geometry::TriangleTree& tree, bool at_corners) {
     constexpr double reach = 37e-6;
-    const std::vector<Vec3> points = random_points(tree, queries_, reach);
+    const std::vector<Vec3> points = random_points(tree, queries_, reach, at_corners);
     std::vector<std::size_t> touches(points.size());
     const double seconds = seconds_of([&] {
       for_all(points, [&](std::size_t n) {
@@ -177,6 +184,7 @@ class Measurement {
       });
     });
     GeometryRow row = row_;
+    row.where = at_corners ? "corners" : "band";
     row.triangles = static_cast<long long>(tree.mesh().triangles.size());
     row.seconds = seconds;
     finish(row, "contact", static_cast<long long>(points.size()));
@@ -213,6 +221,7 @@ class Measurement {
   std::size_t queries_, compared_;
   double dx_ = 0.0;
   std::filesystem::path file_;
+  geometry::TriangleMesh mesh_;
   std::shared_ptr<const geometry::TriangleTree> tree_;
   GeometryRow row_;
   ForeignLoad foreign_;
@@ -221,10 +230,17 @@ class Measurement {
 }  // namespace
 
 void geometry_benchmark(bool quick, const std::function<void(const GeometryRow&)>& done) {
-  Measurement measurement(quick, done);
-  measurement.from_file_to_cells();
-  measurement.queries();
-  measurement.distances();
+  // The largest first: the peak of the memory is its own.
+  Measurement largest(quick ? 160 : 500, quick, done);
+  largest.from_file_to_cells();
+  largest.queries();
+  largest.distances();
+  for (const int across : {158, 50}) {
+    if (quick && across > 100) continue;
+    Measurement smaller(across, quick, done);
+    smaller.build_tree();
+    smaller.distances();
+  }
 }
 
 }  // namespace puffin::bench

@@ -8,8 +8,9 @@ namespace puffin::bench {
 
 /// One measured operation. Where VTK does the same on the same points in the same run, `ratio` is ours over its.
 struct GeometryRow {
-  std::string what;   // "read", "check", "tree", "voxelize", "cut-cells", "signed-distance", ...
-  std::string where;  // points of queries: "band" (within 4 cells of the surface) or "box"
+  std::string what;  // "read", "check", "tree", "voxelize", "cut-cells", "signed-distance", ...
+  std::string
+      where;  // points of queries: "band" (within 4 cells of the surface; contacts: within reach), "corners" or "box"
   long long triangles = 0;
   long long count = 0;  // triangles, cells or queries
   int threads = 0;
@@ -25,7 +26,8 @@ struct GeometryRow {
 
 /// A wavy torus of a million triangles (quick: a hundred thousand), ten million cells (one): written as binary STL,
 /// read, checked, its tree built, voxelised, cut; then distances, winding numbers, rays over links and contact places
-/// at random points. Calls `done` after each row. Throws std::runtime_error if the file cannot be written.
+/// at random points; distances also for a hundred thousand (quick: not) and ten thousand triangles. Calls `done` after
+/// each row. Throws std::runtime_error if the file cannot be written.
 void geometry_benchmark(bool quick, const std::function<void(const GeometryRow&)>& done);
 
 }  // namespace puffin::bench

@@ -25,7 +25,7 @@ lbm::geometry::Voxels full_box(int n) {
   lbm::geometry::Voxels v;
   v.dx = 1.0;
   v.size = {n, n, n};
-  v.fluid.assign(static_cast<std::size_t>(n) * n * n, 1);
+  v.fill([](int, int, int) { return true; });
   v.origin = lbm::geometry::Vec3(0.5, 0.5, 0.5);
   return v;
 }

@@ -28,7 +28,12 @@ void write_voxels(const std::filesystem::path& folder, const geometry::Voxels& v
   frame.origin = {voxels.origin.x(), voxels.origin.y(), voxels.origin.z()};
   frame.dx = voxels.dx;
   frame.size = voxels.size;
-  frame.fluid = voxels.fluid;
+  frame.fluid.assign(static_cast<std::size_t>(frame.cells()), 0);
+  for (std::size_t row = 0; row < voxels.rows(); ++row)
+    for (const geometry::FluidRun& run : voxels.row(row)) {
+      const auto begin = frame.fluid.begin() + static_cast<std::ptrdiff_t>(row) * voxels.size[0];
+      std::fill(begin + run.begin, begin + run.end, 1);
+    }
   output::write_vti(folder / "voxels.vti", frame);
 }
 

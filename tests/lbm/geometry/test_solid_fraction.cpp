@@ -18,9 +18,11 @@ constexpr double rounding = 1e-9;  // stated by cut_cells
 
 // Volume of the fluid: whole cells by their centre, cut cells by their share.
 double volume(const Voxels& voxels, const std::vector<CutCell>& cut) {
-  double cells = 0.0;
-  for (const auto f : voxels.fluid) cells += f;
-  for (const CutCell& c : cut) cells += c.fluid - voxels.fluid[static_cast<std::size_t>(c.cell)];
+  auto cells = static_cast<double>(voxels.cells());
+  for (const CutCell& c : cut) {
+    const auto [i, j, k] = voxels.place(c.cell);
+    cells += c.fluid - voxels.is_fluid(i, j, k);
+  }
   return cells * std::pow(voxels.dx, 3);
 }
 
@@ -53,7 +55,7 @@ TEST(SolidFraction, ATiltedPlaneCutsACellInTheShareOfTheFormula) {
     cell.dx = 1.0;
     cell.origin = Vec3::Constant(0.5);
     cell.size = {1, 1, 1};
-    cell.fluid = {1};
+    cell.fill([](int, int, int) { return true; });
     double expected = a * a * a;
     for (int i = 0; i < 3; ++i) {
       expected -= std::pow(std::max(a - n[i], 0.0), 3);
@@ -82,18 +84,17 @@ TEST(SolidFraction, AMirroredCopyHasTheMirroredShares) {
   // The same grid for both: symmetric about x = 0.
   box.origin = Vec3(-12.5 * 0.125, box.origin.y(), box.origin.z());
   box.size[0] = 26;
-  box.fluid.assign(static_cast<std::size_t>(box.size[0]) * box.size[1] * box.size[2], 0);
+  box.fill([&](int i, int j, int k) { return tree.inside(box.centre(i, j, k)); });
   Voxels other = box;
-  for (int k = 0; k < box.size[2]; ++k)
-    for (int j = 0; j < box.size[1]; ++j)
-      for (int i = 0; i < box.size[0]; ++i) {
-        const bool in = tree.inside(box.centre(i, j, k));
-        box.fluid[static_cast<std::size_t>(box.index(i, j, k))] = in;
-        other.fluid[static_cast<std::size_t>(box.index(box.size[0] - 1 - i, j, k))] = in;
-      }
+  other.fill([&](int i, int j, int k) { return box.is_fluid(box.size[0] - 1 - i, j, k); });
   const auto cut = cut_cells(tree, box), reflected = cut_cells(mirrored, other);
   ASSERT_GT(cut.size(), 500u);
-  std::vector<double> share(box.fluid.begin(), box.fluid.end()), image(other.fluid.begin(), other.fluid.end());
+  std::vector<double> share, image;
+  for (std::int64_t c = 0; c < box.index(0, 0, box.size[2]); ++c) {
+    const auto [i, j, k] = box.place(c);
+    share.push_back(box.is_fluid(i, j, k));
+    image.push_back(other.is_fluid(i, j, k));
+  }
   for (const CutCell& c : cut) share[static_cast<std::size_t>(c.cell)] = c.fluid;
   for (const CutCell& c : reflected) image[static_cast<std::size_t>(c.cell)] = c.fluid;
   double worst = 0.0;
@@ -141,8 +142,7 @@ TEST(SolidFraction, OverlappingBodiesAreTheirUnionToOneThousandth) {
         const Vec3 p = voxels.centre(i, j, k);
         const double expected = share(a0, a1, p) + share(b0, b1, p) - share(a0.cwiseMax(b0), a1.cwiseMin(b1), p);
         const auto at = found.find(voxels.index(i, j, k));
-        const double is =
-            at == found.end() ? voxels.fluid[static_cast<std::size_t>(voxels.index(i, j, k))] : at->second;
+        const double is = at == found.end() ? static_cast<double>(voxels.is_fluid(i, j, k)) : at->second;
         bool fluid_near = false;
         for (int n = 0; n < 27; ++n) fluid_near |= voxels.is_fluid(i + n % 3 - 1, j + n / 3 % 3 - 1, k + n / 9 - 1);
         if (fluid_near) worst = std::max(worst, std::abs(is - expected));

@@ -110,13 +110,33 @@ TEST_F(StlFiles, AsciiDialectsReadTheSame) {
        {text, replaced(text, "\n", "\r\n"), replaced(text, "\n", "\r"), replaced(text, "endsolid part\n", ""),
         replaced(replaced(text, "facet normal 0 0 1", "FACET NORMAL nan -nan 1e999"), "vertex", "Vertex"),
         "\xEF\xBB\xBF" + text, "  \n\t" + text, replaced(text, " facet", "color 1 0 0\n facet"),
-        replaced(text, "1 0 0", "+1.0e+0 -0 0E0"), replaced(text, "1 0 0", "1 1e-400 0"),
-        replaced(text, "   ", "\t")}) {
+        replaced(text, "1 0 0", "+1.0e+0 -0 0E0"), replaced(text, "1 0 0", "1 1e-400 0"), replaced(text, "   ", "\t"),
+        replaced(text, "\n", " ")}) {
     put(dialect);
     const TriangleMesh mesh = read_stl(path());
     ASSERT_EQ(mesh.triangles.size(), 1u) << dialect;
     EXPECT_EQ(mesh.solids, std::vector<std::string>{"part"}) << dialect;
     EXPECT_DOUBLE_EQ(mesh.area(0), 0.5) << dialect;
+  }
+}
+
+TEST_F(StlFiles, AsciiWithoutLineBreaksKeepsItsSolids) {
+  const std::string other = replaced(one_facet, " part", " the other part");
+  put(replaced(std::string(one_facet) + other, "\n", " "));
+  const TriangleMesh mesh = read_stl(path());
+  EXPECT_EQ(mesh.solids, (std::vector<std::string>{"part", "the other part"}));
+  EXPECT_EQ(mesh.solid, (std::vector<int>{0, 1}));
+}
+
+TEST_F(StlFiles, TextInUtf16IsRefusedByName) {
+  std::string wide = "\xFF\xFE";
+  for (const char c : std::string(one_facet)) wide += std::string{c, '\0'};
+  put(wide);
+  try {
+    read_stl(path());
+    FAIL();
+  } catch (const StlError& e) {
+    EXPECT_NE(std::string(e.what()).find("UTF-16"), std::string::npos) << e.what();
   }
 }
 

@@ -45,6 +45,31 @@ TEST(Convergence, OfCellsThatFitHasNoOrder) {
   EXPECT_NEAR(*order_of(dx, {0.03, 0.12, 0.48}, {1e-6, 1e-6, 1e-6}), 2.0, 1e-12);
 }
 
+TEST(HiddenFaces, TheTipOfAWedgeIsAThinWallHoweverThinItIsThere) {
+  // A wedge hangs from the ceiling of a box, 0.2 wide there; its tip lies a ten-thousandth of a cell below the second
+  // layer of centres, where the way between two cells is 8e-6 long in the solid.
+  TriangleMesh mesh;
+  mesh.solids = {"wall"};
+  const std::vector<std::array<double, 2>> outline{{0, 0}, {4, 0}, {4, 4}, {2.1, 4}, {2, 1.4999}, {1.9, 4}, {0, 4}};
+  const int n = static_cast<int>(outline.size());
+  for (const double y : {0.0, 4.0})
+    for (const auto& p : outline) mesh.vertices.emplace_back(p[0], y, p[1]);
+  for (int k = 0; k < n; ++k) {
+    const int next = (k + 1) % n;
+    mesh.triangles.push_back({k, next + n, next});
+    mesh.triangles.push_back({k, k + n, next + n});
+  }
+  for (const auto& t : std::vector<std::array<int, 3>>{{0, 1, 4}, {1, 2, 3}, {1, 3, 4}, {0, 4, 5}, {0, 5, 6}}) {
+    mesh.triangles.push_back(t);
+    mesh.triangles.push_back({t[0] + n, t[2] + n, t[1] + n});
+  }
+  mesh.solid.assign(mesh.triangles.size(), 0);
+  const TriangleTree tree(mesh);
+  const HiddenFaces faces = hidden_faces(tree, voxelize(tree, 1.0));
+  EXPECT_EQ(faces.buried, 0u);
+  EXPECT_EQ(faces.thin, 12u);  // the upper three layers, four cells deep
+}
+
 TEST(HiddenFaces, AWallThinnerThanACellIsFoundAndAThickOneIsNot) {
   // A duct with a plate across its middle, open to no side: 0.04 and 0.2 thick in cells of 0.1.
   for (const double thick : {0.04, 0.2}) {

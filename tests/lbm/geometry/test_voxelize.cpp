@@ -13,7 +13,7 @@
 namespace puffin::lbm::geometry {
 namespace {
 
-std::size_t fluid_cells(const Voxels& v) { return std::accumulate(v.fluid.begin(), v.fluid.end(), std::size_t{0}); }
+std::size_t fluid_cells(const Voxels& v) { return v.cells(); }
 
 double volume(const Voxels& v) { return static_cast<double>(fluid_cells(v)) * v.dx * v.dx * v.dx; }
 
@@ -91,7 +91,8 @@ TEST(Voxelize, TranslatedAndPermutedCopiesClassifyEqually) {
   const Voxels shifted =
       voxelize(TriangleTree(shapes::transformed(mesh, Eigen::Matrix3d::Identity(), {11, -7, 5})), dx);
   ASSERT_EQ(shifted.size, v.size);
-  EXPECT_EQ(shifted.fluid, v.fluid);
+  EXPECT_EQ(shifted.first, v.first);
+  EXPECT_EQ(shifted.runs, v.runs);
   // x -> y -> z -> x
   Eigen::Matrix3d cycle;
   cycle << 0, 0, 1, 1, 0, 0, 0, 1, 0;
@@ -145,10 +146,9 @@ TEST(Voxelize, ASmallHoleOrATurnedFacetChangesNoCellAwayFromIt) {
   for (const TriangleMesh& damaged : {hole, flipped}) {
     const Voxels v = voxelize(TriangleTree(damaged), 0.1);
     ASSERT_EQ(v.size, expected.size);
-    for (std::size_t c = 0; c < v.fluid.size(); ++c) {
-      if (v.fluid[c] == expected.fluid[c]) continue;
-      const int i = static_cast<int>(c) % v.size[0], j = static_cast<int>(c) / v.size[0] % v.size[1];
-      const int k = static_cast<int>(c) / (v.size[0] * v.size[1]);
+    for (std::int64_t c = 0; c < v.index(0, 0, v.size[2]); ++c) {
+      const auto [i, j, k] = v.place(c);
+      if (v.is_fluid(i, j, k) == expected.is_fluid(i, j, k)) continue;
       // The facet is 0.08 wide: farther than two of it its solid angle is below 1/50 of a half space.
       EXPECT_LT((v.centre(i, j, k) - place).norm(), 0.16);
     }

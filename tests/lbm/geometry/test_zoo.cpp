@@ -68,7 +68,7 @@ const std::vector<Animal>& zoo() {
        [](TriangleMesh& m) {
          for (const int t : {3, 50, 250}) add_facet(m, m.triangles[t]);
        }},
-      {"whole-surface-twice", "duplicate facet", false, true,
+      {"whole-surface-twice", "duplicate facet", true, true,
        [](TriangleMesh& m) {
          const auto all = m.triangles;
          for (const auto& t : all) add_facet(m, t);
@@ -94,6 +94,31 @@ const std::vector<Animal>& zoo() {
        [](TriangleMesh& m) {
          const Vec3 middle = shapes::rotation() * Vec3(0.015, 0.005, 0.004) + Vec3(0.01, -0.02, 0.003);
          m = shapes::joined(m, shapes::turned(shapes::sphere(0.002, 6, middle)));
+       }},
+      {"body-of-fluid-in-the-fluid", "nested shell", true, false,
+       [](TriangleMesh& m) {
+         const Vec3 middle = shapes::rotation() * Vec3(0.015, 0.005, 0.004) + Vec3(0.01, -0.02, 0.003);
+         m = shapes::joined(m, shapes::sphere(0.002, 6, middle));
+       }},
+      {"plate-from-wall-to-wall", "nested shell", false, false,
+       [](TriangleMesh& m) {
+         const TriangleMesh plate = shapes::turned(shapes::box({0.012, 0, 0}, {0.0121, 0.01, 0.006}));
+         m = shapes::joined(m, shapes::transformed(plate, shapes::rotation(), {0.01, -0.02, 0.003}));
+       }},
+      {"finer-on-one-side-of-an-edge", "hole", true, true,
+       [](TriangleMesh& m) {
+         // Three corners on an edge of one triangle, none on that of its neighbour; and the next triangle's as well.
+         for (const int t : {40, 41}) {
+           const auto whole = m.triangles[t];
+           int from = whole[0];
+           for (const double at : {0.2, 0.5, 0.9}) {
+             m.vertices.push_back(m.vertices[whole[0]] + at * (m.vertices[whole[1]] - m.vertices[whole[0]]));
+             const int to = static_cast<int>(m.vertices.size()) - 1;
+             add_facet(m, {from, to, whole[2]});
+             from = to;
+           }
+           m.triangles[t] = {from, whole[1], whole[2]};
+         }
        }},
       {"metres-as-millimetres", "suspicious size", false, false,
        [](TriangleMesh& m) {

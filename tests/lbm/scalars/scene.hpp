@@ -31,9 +31,7 @@ inline Scene make_scene(std::array<int, 3> size, std::array<bool, 3> periodic, b
   geometry::Voxels voxels;
   voxels.dx = 1.0;
   voxels.size = size;
-  for (int k = 0; k < size[2]; ++k)
-    for (int j = 0; j < size[1]; ++j)
-      for (int i = 0; i < size[0]; ++i) voxels.fluid.push_back(!is_air || is_air(i, j, k));
+  voxels.fill([&](int i, int j, int k) { return !is_air || is_air(i, j, k); });
   Scene s{Rows(voxels, periodic), {}, {}};
   s.opening_patch.assign(s.rows.slots(), -1);
   s.fluxes.density.assign(s.rows.slots(), 1.0);
