@@ -76,7 +76,7 @@ def write(table: Path | None, rows: list[list]) -> None:
     print()
     if table:
         with open(table, "w", newline="", encoding="utf-8") as file:
-            csv.writer(file).writerows(rows)
+            csv.writer(file, lineterminator="\n").writerows(rows)
 
 
 def main() -> int:

@@ -59,7 +59,7 @@ def main() -> int:
     if given.table:
         new = not given.table.exists()
         with open(given.table, "a", newline="", encoding="utf-8") as file:
-            table = csv.writer(file)
+            table = csv.writer(file, lineterminator="\n")
             if new:
                 table.writerow(["target", "cpu_s", "executions", "edges", "corpus", "findings"])
             table.writerow(row)

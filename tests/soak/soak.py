@@ -63,7 +63,7 @@ def watch(program: str, run: Path, minutes: float) -> tuple[int, list[list[float
                               "--threads", "1", "--walltime", f"{minutes * 60:.0f} s", "--no-report"])
     begin, rows = time.monotonic(), []
     with open(f"{run}.csv", "w", newline="") as file:
-        table = csv.writer(file)
+        table = csv.writer(file, lineterminator="\n")
         table.writerow(["minute", "resident_MB", "cpu_s", "simulated_s", "in_air", "ledger_error"])
         while child.poll() is None:
             time.sleep(max(0.0, begin + 60.0 * (len(rows) + 1) - time.monotonic()))
