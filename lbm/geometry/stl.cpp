@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -120,6 +121,21 @@ void parse_binary(const std::string& path, std::string_view bytes, double unit, 
   mesh.solid.assign(claimed, 0);
 }
 
+/// The search of nearest triangles squares lengths in single precision, which ends at 1e38.
+constexpr double largest_coordinate = 1e12;  // m
+
+void refuse_the_absurd(const std::string& name, const TriangleMesh& mesh) {
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k) {
+      const double size = mesh.corner(static_cast<int>(t), k).cwiseAbs().maxCoeff();
+      if (size <= largest_coordinate) continue;
+      char text[64];
+      std::snprintf(text, sizeof text, "%zu has a corner %.3g m from the origin", t + 1, size);
+      throw StlError(name + ": error: triangle " + text +
+                     "; no device is that large: the file is damaged, or its unit another one");
+    }
+}
+
 }  // namespace
 
 double weld_tolerance(const TriangleMesh& mesh) {
@@ -149,6 +165,7 @@ TriangleMesh parse_stl(const std::string& name, std::string_view bytes, double u
     parse_binary(name, bytes, unit, mesh);
   }
   if (mesh.triangles.empty()) throw StlError(name + ": error: the file holds no triangles; export the surface again");
+  refuse_the_absurd(name, mesh);
   weld(mesh, weld_tolerance(mesh));
   return mesh;
 }

@@ -154,7 +154,7 @@ precision = "double"
 [stop]
 time = "5 ms"
 )";
-  double pressure[2] = {0, 0};
+  double pressure[2] = {0, 0}, final_pressure = 0.0;
   std::int64_t steps[2] = {0, 0};
   const char* rules[2] = {"follow-ramp", "fixed"};
   for (int k = 0; k < 2; ++k) {
@@ -166,9 +166,13 @@ time = "5 ms"
     const auto& rows = s.air->rows;
     pressure[k] = s.scale.pressure(lbm::moments_at(*s.air, rows.active_slot(2, 4, 4)).density_excess);
     steps[k] = s.air->steps;
+    while (s.time < 5e-3) coupling::advance(sim->models, 5e-3, s);
+    final_pressure = s.scale.pressure(lbm::moments_at(*s.air, rows.active_slot(2, 4, 4)).density_excess);
   }
   ASSERT_GT(pressure[1], 0.0);
-  EXPECT_NEAR(pressure[0] / pressure[1], 1.0, 0.01);  // the promise of the interface's time_step
+  // One per cent of the final drop, as decision 0006 measures it: in the middle of the ramp the two differ by the error
+  // of compressibility, u_lb^2 = 1 % of the drop at the same instant.
+  EXPECT_NEAR(pressure[0], pressure[1], 0.01 * final_pressure);
   EXPECT_LT(steps[0], 0.85 * steps[1]);
 }
 

@@ -188,6 +188,9 @@ TEST_F(StlFiles, BadBinaryIsRefusedWithItsTriangleAndInBoundedMemory) {
   std::string nan = good;
   const float not_a_number = std::nanf("");
   std::memcpy(nan.data() + 84 + 50 * 6 + 12, &not_a_number, 4);
+  std::string far = good;
+  const float far_away = 3e38F;
+  std::memcpy(far.data() + 84 + 50 * 6 + 12, &far_away, 4);
   const std::vector<std::array<std::string, 3>> zoo{
       {"empty", "", "the file is empty"},
       {"short", good.substr(0, 50), "50 bytes are too few"},
@@ -196,6 +199,8 @@ TEST_F(StlFiles, BadBinaryIsRefusedWithItsTriangleAndInBoundedMemory) {
       {"huge", huge, "promises 4294967295 triangles"},
       {"few", few, "promises 3 triangles but the file has room for 12"},
       {"nan", nan, "triangle 7 has a corner that is no finite number"},
+      {"far", far, "triangle 7 has a corner"},
+      {"far", far, "no device is that large"},
       {"cut, begins with solid", "solid " + good.substr(6, 300), "truncated"},
       {"a picture", "\x89PNG\r\n\x1a\n" + std::string(500, '\x7'), "no STL"},
       {"a text",
