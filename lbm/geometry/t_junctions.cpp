@@ -67,7 +67,7 @@ std::vector<Vec3> split_at_t_junctions(TriangleMesh& mesh) {
     const std::vector<TJunction> found = find_t_junctions(mesh, Adjacency(mesh));
     if (found.empty()) break;
     for (std::size_t n = 0; n < found.size();) {
-      const auto [triangle, edge, vertex, at] = found[n];
+      const int triangle = found[n].triangle, edge = found[n].edge;
       const std::array<int, 3> whole = mesh.triangles[triangle];
       const int last = whole[(edge + 1) % 3], apex = whole[(edge + 2) % 3];
       int from = whole[edge];

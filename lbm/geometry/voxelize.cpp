@@ -227,6 +227,7 @@ Pockets drop_pockets(const TriangleTree& tree, const VoxelizeOptions& options, V
   }
   voxels = std::move(kept);
   std::vector<Pocket> pockets;
+  pockets.reserve(by_root.size());
   for (const auto& [root, pocket] : by_root) pockets.push_back(pocket);
   std::stable_sort(pockets.begin(), pockets.end(), [](const Pocket& a, const Pocket& b) { return a.cells > b.cells; });
   Pockets dropped;
