@@ -10,6 +10,7 @@
 #include "dem/chains.hpp"
 #include "dem/free_flight.hpp"
 #include "dem/gather.hpp"
+#include "dem/meeting.hpp"
 #include "dem/rest.hpp"
 
 namespace puffin::dem {
@@ -50,12 +51,13 @@ void commit(const Rules& rules, Cluster& cluster, State& state, Events& events) 
   Carriers& all = state.carriers;
   for (std::size_t b = 0; b < cluster.bodies.size(); ++b) {
     const Body& body = cluster.bodies[b];
-    if (body.fixed && !body.stuck) continue;
-    std::swap(state.walls[body.carrier], cluster.walls[b]);
-    const std::int32_t i = body.carrier;
-    all.position[i] = body.x, all.velocity[i] = body.v, all.spin[i] = body.w;
-    state.drag_impulse[i] = body.drag_impulse;
-    if (body.stuck) all.rest[i] = Rest::stuck;
+    const BodyRecord& record = cluster.records[b];
+    if (record.fixed && !record.stuck) continue;
+    const std::int32_t i = record.carrier;
+    std::swap(state.walls[i], cluster.walls[b]);
+    all.position[i] = vec(body.x), all.velocity[i] = vec(body.v), all.spin[i] = vec(body.w);
+    state.drag_impulse[i] = record.drag_impulse;
+    if (record.stuck) all.rest[i] = Rest::stuck;
   }
   for (const Touch& touch : cluster.touches) {
     const bool live = touch.memory.phase != ContactPhase::free;

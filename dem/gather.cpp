@@ -8,6 +8,7 @@
 
 #include "dem/chains.hpp"
 #include "dem/first_touch.hpp"
+#include "dem/meeting.hpp"
 
 namespace puffin::dem {
 namespace {
@@ -212,16 +213,20 @@ bool guess_held(double duration, State& state, Gathering& g) {
   std::vector<std::int32_t> loose;
   for (std::size_t c = 0; c < g.used; ++c) {
     Cluster& cluster = g.clusters[c];
-    for (Body& body : cluster.bodies) {
-      if (body.sleeper && body.disturbed) {
-        wake(body.carrier, state);
+    for (std::size_t b = 0; b < cluster.bodies.size(); ++b) {
+      const BodyRecord& record = cluster.records[b];
+      const std::int32_t i = record.carrier;
+      if (record.sleeper && record.disturbed) {
+        wake(i, state);
         held = false;
       }
-      if (cluster.disturbed || (body.fixed && !body.stuck)) continue;
-      if (body.deviation > g.margin[body.carrier])
-        loose.push_back(body.carrier), g.margin[body.carrier] = body.deviation;
-      if ((body.x - state.neighbours.built_at[body.carrier]).norm() + body.deviation >
-          state.neighbours.budget[body.carrier] + body.deviation)
+      if (cluster.disturbed || (record.fixed && !record.stuck)) continue;
+      if (record.deviation2 > g.margin[i] * g.margin[i]) {
+        loose.push_back(i);
+        g.margin[i] = std::sqrt(record.deviation2);
+      }
+      const double budget = state.neighbours.budget[i];
+      if ((vec(cluster.bodies[b].x) - state.neighbours.built_at[i]).squaredNorm() > budget * budget)
         state.neighbours.valid = false, held = false;
     }
   }
