@@ -2,7 +2,6 @@
 
 #include "dem/cluster.hpp"
 
-#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -15,6 +14,7 @@
 #include "dem/first_touch.hpp"
 #include "dem/free_flight.hpp"
 #include "dem/meeting.hpp"
+#include "dem/parts.hpp"
 
 namespace puffin::dem {
 namespace {
@@ -25,20 +25,8 @@ constexpr std::int64_t most_steps = 50'000'000;  // something must be wrong
 constexpr double longest_way_near_walls = 0.2;   // in radii, between two looks
 constexpr double longest_growth = 4.0;           // of a sub-step against the one before
 
-// A large cluster is shared among threads in parts of this size, which is some 20 us of work. What a part finds is kept
-// apart; smallest and largest values do not depend on the order.
+// A large cluster is shared among threads in parts of this size, some 20 us of work each.
 constexpr std::size_t bodies_a_part = 256, blocks_a_part = 64;
-
-template <class Work>
-void in_parts(std::size_t count, std::size_t size, Work work) {
-  const std::size_t parts = (count + size - 1) / size;
-  const auto one = [&](std::size_t p) { work(p, p * size, std::min(count, (p + 1) * size)); };
-  if (parts <= 1) {
-    if (parts == 1) one(0);
-  } else {
-    tbb::parallel_for(std::size_t{0}, parts, one);
-  }
-}
 
 /// What one part of the bodies says after an evaluation.
 struct Said {
@@ -96,14 +84,12 @@ void Motion::sum_forces(std::size_t i) {
   double force[3] = {0.0, 0.0, 0.0}, torque[3] = {0.0, 0.0, 0.0};
   const bool rolling = rules_.rotation && (rules_.carrier.rolling > 0.0 || rules_.wall.rolling > 0.0);
   const auto add = [&](std::size_t touch, bool second) {
-    const Springs& s = cluster_.block(touch);
-    const std::size_t l = touch % Springs::lanes;
-    if (!(s.phase[l] > lane::free)) return;
+    const Pull& pull = cluster_.pulls[touch];
     const double sign = second ? -1.0 : 1.0;
-    for (int d = 0; d < 3; ++d) force[d] += sign * s.force[d][l];
+    for (int d = 0; d < 3; ++d) force[d] += sign * pull.force[d];
     if (!rules_.rotation) return;
-    const double share = second ? 1.0 - s.share[l] : s.share[l];
-    for (int d = 0; d < 3; ++d) torque[d] -= share * s.moment[d][l];
+    const double share = second ? 1.0 - pull.share : pull.share;
+    for (int d = 0; d < 3; ++d) torque[d] -= share * pull.moment[d];
     if (rolling)
       for (int d = 0; d < 3; ++d) torque[d] += sign * cluster_.touches[touch].rolling_moment[d];
   };
@@ -234,10 +220,12 @@ double Motion::time_of_flight(double horizon) const {
     if (touch.b >= 0) {
       const Body& b = cluster_.bodies[touch.b];
       first = std::min(first, first_touch(vec(a.x) - vec(b.x), vec(a.v) - vec(b.v),
-                                          acceleration - cluster_.records[touch.b].acceleration, s.reach[l], first));
+                                          acceleration - cluster_.records[touch.b].acceleration,
+                                          cluster_.constants[touch.pair].reach, first));
     } else {
       const Vector3d& n = touch.plane.normal;
-      first = std::min(first, first_zero(touch.plane.gap(vec(a.x), a.radius), n.dot(vec(a.v)), n.dot(acceleration), first));
+      first =
+          std::min(first, first_zero(touch.plane.gap(vec(a.x), a.radius), n.dot(vec(a.v)), n.dot(acceleration), first));
     }
   }
   return first;

@@ -31,13 +31,13 @@ struct Rules {
 
 /// What the air step keeps of a body, beside what its contacts ask for (body.hpp).
 struct BodyRecord {
-  std::int32_t carrier = -1;  // place in State
-  std::int32_t first_wall = -1;  // chain of its wall touches, through Touch::next_wall
-  bool fixed = false;         // does not move: asleep, stuck or held
-  bool sleeper = false;       // fixed because asleep: watches the force on it
-  bool disturbed = false;     // a sleeper that must wake
-  bool stuck = false;         // came to hold to a wall in this step
-  double drag = 0.0;          // beta [kg/s]
+  std::int32_t carrier = -1;                 // place in State
+  std::int32_t first_wall = -1;              // chain of its wall touches, through Touch::next_wall
+  bool fixed = false;                        // does not move: asleep, stuck or held
+  bool sleeper = false;                      // fixed because asleep: watches the force on it
+  bool disturbed = false;                    // a sleeper that must wake
+  bool stuck = false;                        // came to hold to a wall in this step
+  double drag = 0.0;                         // beta [kg/s]
   Eigen::Vector3d air_velocity, torque;      // of the load [m/s], [N m]
   Eigen::Vector3d steady;                    // load force and weight [N]
   Eigen::Vector3d acceleration, turning;     // of the last force evaluation [m/s^2], [rad/s^2]
@@ -61,18 +61,17 @@ struct Touch {
   std::int32_t place = -1;      // in State::contacts; -1: none yet
   std::int32_t pair = -1;       // of Cluster::pairs
   std::int32_t next_wall = -1;
-  double rolling_use = 0.0;                                    // part of the rolling resistance in use
+  double rolling_use = 0.0;                                  // part of the rolling resistance in use
   Eigen::Vector3d rolling_moment = Eigen::Vector3d::Zero();  // on a [N m]
   WallPlane plane;
 };
 
-/// The law of a pair, with what it was made from.
+/// The law of a pair, with what it was made from. What every sub-step asks for is in PairConstants.
 struct PairNumbers {
-  double radius_a = -1.0, radius_b = 0.0, single_a = 0.0, single_b = 0.0, inverse_mass = 0.0, strength = 0.0, lightest = 0.0;
+  double radius_a = 0.0, radius_b = 0.0, single_a = 0.0, single_b = 0.0;  // [m]
+  double inverse_mass = 0.0, strength = 0.0, lightest = 0.0;              // lightest: mass over radius
   bool wall = false;
   PairLaw law;
-  double knee = 0.0;                        // overlap where the second spring begins [m]
-  double eta_pull = 0.0, pull_step = 0.0;  // dashpot and sub-step in tension [kg/s], [s]
 };
 
 /// A share of a body in a touch, to sum up its forces.
@@ -86,9 +85,11 @@ struct Cluster {
   std::vector<BodyRecord> records;
   std::vector<WallCache> walls;  // of the bodies; may be longer, to keep its memory
   std::vector<Touch> touches;
-  std::vector<Springs> springs;      // touch i: lane i % Springs::lanes of block i / Springs::lanes
-  std::vector<std::uint8_t> events;  // of each block: lanes where something begins or ends in this sub-step
-  std::vector<PairNumbers> pairs;    // each carrier pair has its own, or that of the touch before it
+  std::vector<Springs> springs;           // touch i: lane i % Springs::lanes of block i / Springs::lanes
+  std::vector<std::uint8_t> events;       // of each block: lanes where something begins or ends in this sub-step
+  std::vector<Pull> pulls;                // of each touch, and of the empty lanes of the last block
+  std::vector<PairNumbers> pairs;         // each touch has its own, or that of a touch before it
+  std::vector<PairConstants> constants;   // of each of the pairs
   std::vector<std::int32_t> share_begin;  // of each body, in `shares`
   std::vector<Share> shares;              // in touches of two bodies, ascending
   std::vector<ContactBegun> begun;

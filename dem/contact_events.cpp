@@ -46,8 +46,10 @@ struct Whole {
         record_a(cluster.records[touch.a]),
         record_b(touch.b >= 0 ? &cluster.records[touch.b] : nullptr),
         law(rules.law(touch.b < 0)),
-        pair(cluster.pairs[touch.pair].law) {}
-  Meeting meeting() const { return meet(touch, s.reach[l], s.share[l], a, b); }
+        pair(cluster.pairs[touch.pair].law),
+        constants(cluster.constants[touch.pair]),
+        pull(cluster.pulls[index]) {}
+  Meeting meeting() const { return meet(touch, constants, a, b); }
 
   Touch& touch;
   Springs& s;
@@ -58,6 +60,8 @@ struct Whole {
   BodyRecord* const record_b;
   const SurfaceLaw& law;
   const PairLaw& pair;
+  const PairConstants& constants;
+  const Pull& pull;
 };
 
 /// First touch: logs it, lets adhesion pull, chooses the stiffness.
@@ -109,7 +113,7 @@ void begin_contact(const Meeting& m, std::size_t index, const Substep& substep, 
 /// contact carried forces only up to `since` ago.
 bool separates(const Meeting& m, double h, double since, const Whole& w) {
   const double spring = w.s.spring[w.l], dashpot = w.s.dashpot[w.l];
-  Vector3d slip(w.s.force[0][w.l], w.s.force[1][w.l], w.s.force[2][w.l]);  // the last force, but for its normal part
+  Vector3d slip = vec(w.pull.force);  // the last force, but for its normal part
   slip -= m.normal * m.normal.dot(slip);
   push_at_contact(m.normal * (-0.5 * since * spring + (0.5 * h - since) * dashpot) - 0.5 * since * slip, m, w.a, w.b);
   const double speed = m.normal.dot(centre_velocity(w.a, w.b));
@@ -151,7 +155,8 @@ void end_contact(double time, std::size_t index, Cluster& cluster) {
   touch.rolling_use = 0.0;
   s.phase[l] = lane::free;
   s.idle_until = 0.0;
-  for (int d = 0; d < 3; ++d) s.force[d][l] = s.moment[d][l] = 0.0;
+  Pull& pull = cluster.pulls[index];
+  for (int d = 0; d < 3; ++d) pull.force[d] = pull.moment[d] = 0.0;
 }
 
 Wish meet_event(std::size_t index, const Substep& substep, const Rules& rules, Cluster& cluster) {

@@ -1,6 +1,6 @@
 // The law of a live contact over a number type R: a double, or a pack of lanes. Included within a namespace that offers
-// select(mask, yes, no), any(mask), maximum, minimum and root for R, so that each instruction set has a text of its own.
-// The states of a contact and their reasons: contact_step.cpp.
+// select(mask, yes, no), any(mask), maximum, minimum and root for R, so that each instruction set has a text of its
+// own. The states of a contact and their reasons: contact_step.cpp.
 
 /// One contact, as loaded from a lane of Springs.
 template <class R>
@@ -34,18 +34,18 @@ struct Answer {
 };
 
 template <class R>
-inline R dot(const R (&a)[3], const R (&b)[3]) {
+[[gnu::always_inline]] inline R dot(const R (&a)[3], const R (&b)[3]) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
 template <class R>
-inline void take_off_normal(const R (&n)[3], R (&v)[3]) {
+[[gnu::always_inline]] inline void take_off_normal(const R (&n)[3], R (&v)[3]) {
   const R along = dot(n, v);
   for (int d = 0; d < 3; ++d) v[d] = v[d] - n[d] * along;
 }
 
 template <class R>
-inline void cross(const R (&a)[3], const R (&b)[3], R (&c)[3]) {
+[[gnu::always_inline]] inline void cross(const R (&a)[3], const R (&b)[3], R (&c)[3]) {
   c[0] = a[1] * b[2] - a[2] * b[1];
   c[1] = a[2] * b[0] - a[0] * b[2];
   c[2] = a[0] * b[1] - a[1] * b[0];
@@ -53,18 +53,18 @@ inline void cross(const R (&a)[3], const R (&b)[3], R (&c)[3]) {
 
 /// mu at the sliding speed (SpeedFriction in models.hpp).
 template <class R>
-inline R friction_coefficient(const SpringLaw& law, const R (&velocity)[3]) {
+[[gnu::always_inline]] inline R friction_coefficient(const SpringLaw& law, const R (&velocity)[3]) {
   if (law.slip_speed == 0.0) return R(law.stick);
   const R speed = root(dot(velocity, velocity)), part = speed / R(law.slip_speed);
   const R sticking = R(law.stick) + R(law.stick - law.slip) * (part - R(2.0)) * part;
-  const R slipping = R(law.slip) + R((law.limit - law.slip) / (law.limit_speed - law.slip_speed)) *
-                                       (speed - R(law.slip_speed));
+  const R slipping =
+      R(law.slip) + R((law.limit - law.slip) / (law.limit_speed - law.slip_speed)) * (speed - R(law.slip_speed));
   return select(speed < R(law.slip_speed), sticking, select(speed < R(law.limit_speed), slipping, R(law.limit)));
 }
 
 /// An impact that turns is leaving; what turns back before it separates is bonded, or without adhesion an impact again.
 template <class R>
-inline void turn_phase(const R& overlap, const R& closing, Spring<R>& c) {
+[[gnu::always_inline]] inline void turn_phase(const R& overlap, const R& closing, Spring<R>& c) {
   const R zero(0.0);
   c.phase = select(c.phase == R(lane::impact) && closing < zero, R(lane::leaving), c.phase);
   const R again = select(c.pull_off > zero, R(lane::bonded), R(lane::impact));
@@ -73,7 +73,8 @@ inline void turn_phase(const R& overlap, const R& closing, Spring<R>& c) {
 
 /// Linear spring with its knee, or the breaking spring of a bond.
 template <class R>
-inline Normal<R> linear_normal(const SpringLaw& law, const R& overlap, const R& closing, Spring<R>& c) {
+[[gnu::always_inline]] inline Normal<R> linear_normal(const SpringLaw& law, const R& overlap, const R& closing,
+                                                      Spring<R>& c) {
   const R zero(0.0);
   const auto bonded = c.phase == R(lane::bonded);
   const auto outside = overlap <= zero;
@@ -101,11 +102,12 @@ inline Normal<R> linear_normal(const SpringLaw& law, const R& overlap, const R& 
   return n;
 }
 
-/// Tangential spring with dashpot (Cundall & Strack 1979) up to the friction limit mu * pressing (thesis eq. 2.4). Moves
-/// the spring by `share` [s] of the half-step velocities and shortens it at the limit, so it never gives back more than
-/// it took.
+/// Tangential spring with dashpot (Cundall & Strack 1979) up to the friction limit mu * pressing (thesis eq. 2.4).
+/// Moves the spring by `share` [s] of the half-step velocities and shortens it at the limit, so it never gives back
+/// more than it took.
 template <class R>
-inline void slide(const SpringLaw& law, const R& share, Encounter<R>& e, Spring<R>& c, Answer<R>& answer) {
+[[gnu::always_inline]] inline void slide(const SpringLaw& law, const R& share, Encounter<R>& e, Spring<R>& c,
+                                         Answer<R>& answer) {
   take_off_normal(e.normal, e.half);
   take_off_normal(e.normal, e.end);
   take_off_normal(e.normal, c.slip);
@@ -130,8 +132,8 @@ inline void slide(const SpringLaw& law, const R& share, Encounter<R>& e, Spring<
 /// Keeps the largest force and overlap. Near the turning point the overlap still to come, m* v^2/(2 F) from here (and
 /// where it comes from, past the point), is known to second order; the dashpot is silent there.
 template <class R>
-inline void note_extremes(const R& overlap, const R& closing, const R& spring, const R& tangent, const R& normal_force,
-                          Spring<R>& c) {
+[[gnu::always_inline]] inline void note_extremes(const R& overlap, const R& closing, const R& spring, const R& tangent,
+                                                 const R& normal_force, Spring<R>& c) {
   c.max_force = maximum(c.max_force, normal_force);
   c.max_overlap = maximum(c.max_overlap, overlap);
   const R twice = closing * closing, lever = spring * c.inverse_mass;
@@ -142,14 +144,14 @@ inline void note_extremes(const R& overlap, const R& closing, const R& spring, c
   c.max_force = select(turns, maximum(c.max_force, spring + tangent * way), c.max_force);
 }
 
-/// Forces of a live contact over the sub-step h [s], of which it has lived `share` [s]. The dashpot acts on the speed at
-/// the end of the sub-step. The predicted one carries the old force of this contact; to put its new force there instead,
-/// dashpot included, is second order with a small constant (e right within 0.1 %). Friction is held by what presses the
-/// surfaces together. The linear dashpot's integral over a contact is zero; that of a Hertz contact, which never pulls,
-/// is not.
+/// Forces of a live contact over the sub-step h [s], of which it has lived `share` [s]. The dashpot acts on the speed
+/// at the end of the sub-step. The predicted one carries the old force of this contact; to put its new force there
+/// instead, dashpot included, is second order with a small constant (e right within 0.1 %). Friction is held by what
+/// presses the surfaces together. The linear dashpot's integral over a contact is zero; that of a Hertz contact, which
+/// never pulls, is not.
 template <class R>
-inline Answer<R> contact_force(const SpringLaw& law, const R& h, const R& share, const Normal<R>& n, Encounter<R>& e,
-                               Spring<R>& c) {
+[[gnu::always_inline]] inline Answer<R> contact_force(const SpringLaw& law, const R& h, const R& share,
+                                                      const Normal<R>& n, Encounter<R>& e, Spring<R>& c) {
   Answer<R> answer;
   const R response = R(0.5) * h * c.inverse_mass;
   R dashpot = n.eta * (e.closing + response * (c.spring + c.dashpot - n.spring)) / (R(1.0) + response * n.eta);
@@ -167,7 +169,7 @@ inline Answer<R> contact_force(const SpringLaw& law, const R& h, const R& share,
 /// Leaving: ends the sub-step where the overlap is gone, if that is not much less than a sub-step away.
 /// in: `left` [m] to the end of the contact.
 template <class R>
-inline R stop_at_separation(const R& left, const R& closing, const Spring<R>& c, const R& step) {
+[[gnu::always_inline]] inline R stop_at_separation(const R& left, const R& closing, const Spring<R>& c, const R& step) {
   const R zero(0.0), speed = zero - closing;
   const R push = (c.spring + c.dashpot) * c.inverse_mass;  // towards separation [m/s^2]
   const auto reaches = speed > zero && left > zero && left < (speed + R(0.5) * maximum(zero, push) * step) * step;
@@ -177,9 +179,11 @@ inline R stop_at_separation(const R& left, const R& closing, const Spring<R>& c,
   return select(reaches && under >= zero && fall < step, maximum(fall, R(0.25) * step), step);
 }
 
-/// Near separation, slow enough to bond: the stiffer spring of tension is about to take over, with sub-steps `pull_step`.
+/// Near separation, slow enough to bond: the stiffer spring of tension is about to take over, with sub-steps
+/// `pull_step`.
 template <class R>
-inline R mind_the_bond(const R& overlap, const R& closing, const R& pull_step, const Spring<R>& c, const R& step) {
+[[gnu::always_inline]] inline R mind_the_bond(const R& overlap, const R& closing, const R& pull_step,
+                                              const Spring<R>& c, const R& step) {
   const R zero(0.0), speed2 = closing * closing;
   const auto slow = c.phase == R(lane::bonded) || speed2 < R(8.0) * c.well * c.inverse_mass;
   const auto soon = c.well > zero && overlap > zero && slow && pull_step < step;
@@ -192,7 +196,8 @@ inline R mind_the_bond(const R& overlap, const R& closing, const R& pull_step, c
 
 /// A quiet bond (little energy against the well, little of its strength in use) needs only stability: t_c/8.
 template <class R>
-inline R quiet_factor(const SpringLaw& law, const R& overlap, const R& closing, const R& spring, const Spring<R>& c) {
+[[gnu::always_inline]] inline R quiet_factor(const SpringLaw& law, const R& overlap, const R& closing, const R& spring,
+                                             const Spring<R>& c) {
   const auto quiet = c.phase == R(lane::bonded) && closing * closing < R(0.1) * c.well * c.inverse_mass &&
                      overlap < R(0.5) * c.knee && R(0.0) - spring < R(0.5) * c.pull_off;
   return select(quiet, R(law.quiet_factor), R(1.0));
@@ -200,7 +205,8 @@ inline R quiet_factor(const SpringLaw& law, const R& overlap, const R& closing, 
 
 /// The largest next sub-step [s] that a live linear contact allows.
 template <class R>
-inline R next_step(const SpringLaw& law, const Normal<R>& n, const Encounter<R>& e, const Spring<R>& c) {
+[[gnu::always_inline]] inline R next_step(const SpringLaw& law, const Normal<R>& n, const Encounter<R>& e,
+                                          const Spring<R>& c) {
   const R zero(0.0);
   const R coarse = quiet_factor(law, e.overlap, e.closing, n.spring, c);
   R step = coarse * n.step;

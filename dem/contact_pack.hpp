@@ -10,9 +10,10 @@
 namespace puffin::dem {
 
 /// Forces of the live linear contacts between carriers of one block after a sub-step h [s]; their springs move. Returns
-/// the largest next sub-step [s] that they allow. Sets the bits in `events` of lanes where a contact ends or bonds; these
-/// are left as they were. Writes nothing but the block: blocks run in parallel.
-using PairContacts = double(const SpringLaw& law, double h, const Body* bodies, Springs& block, std::uint32_t& events);
+/// the largest next sub-step [s] that they allow. Sets the bits in `events` of lanes where a contact ends or bonds;
+/// these are left as they were. Writes nothing but the block and its eight pulls: blocks run in parallel.
+using PairContacts = double(const SpringLaw& law, double h, const Body* bodies, const PairConstants* pairs,
+                            Springs& block, Pull* pulls, std::uint32_t& events);
 
 namespace baseline {
 PairContacts* pair_contacts();

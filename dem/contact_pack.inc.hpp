@@ -1,6 +1,6 @@
-// Eight live linear contacts between carriers at once, for one instruction set: PUFFIN_ISA names the namespace, the flags
-// are set in dem/CMakeLists.txt. No function of others is called here but roots: what the linker shares must not be
-// compiled for one processor. Products and sums are never fused, so every instruction set gives the same bits.
+// Eight live linear contacts between carriers at once, for one instruction set: PUFFIN_ISA names the namespace, the
+// flags are set in dem/CMakeLists.txt. No function of others is called here but roots: what the linker shares must not
+// be compiled for one processor. Products and sums are never fused, so every instruction set gives the same bits.
 
 #include <cstdint>
 #include <experimental/simd>
@@ -16,21 +16,22 @@ using Mask = Pack::mask_type;
 constexpr int width = static_cast<int>(Pack::size());
 static_assert(Springs::lanes % width == 0);
 
-inline Pack select(const Mask& mask, const Pack& yes, const Pack& no) {
+[[gnu::always_inline]] inline Pack select(const Mask& mask, const Pack& yes, const Pack& no) {
   Pack chosen = no;
   stdx::where(mask, chosen) = yes;
   return chosen;
 }
-inline bool any(const Mask& mask) { return stdx::any_of(mask); }
-inline Pack maximum(const Pack& a, const Pack& b) { return select(a < b, b, a); }
-inline Pack minimum(const Pack& a, const Pack& b) { return select(b < a, b, a); }
-inline Pack root(const Pack& a) { return stdx::sqrt(a); }
+[[gnu::always_inline]] inline bool any(const Mask& mask) { return stdx::any_of(mask); }
+[[gnu::always_inline]] inline Pack maximum(const Pack& a, const Pack& b) { return select(a < b, b, a); }
+[[gnu::always_inline]] inline Pack minimum(const Pack& a, const Pack& b) { return select(b < a, b, a); }
+[[gnu::always_inline]] inline Pack root(const Pack& a) { return stdx::sqrt(a); }
 
 #include "dem/contact_law.inc.hpp"
 
-inline Pack load(const double* from) { return Pack(from, stdx::vector_aligned); }
-inline void store(const Mask& mask, const Pack& value, double* to) {
-  stdx::where(mask, value).copy_to(to, stdx::vector_aligned);
+[[gnu::always_inline]] inline Pack load(const double* from) { return Pack(from, stdx::vector_aligned); }
+/// (Without AVX a masked store would go past the caches.)
+[[gnu::always_inline]] inline void store(const Mask& mask, const Pack& value, double* to) {
+  select(mask, value, load(to)).copy_to(to, stdx::vector_aligned);
 }
 
 /// The bodies at both ends of the lanes' contacts.
@@ -39,21 +40,21 @@ struct Ends {
   const Body* b[width];
   /// Member of every lane's body, less that of its partner.
   template <class Member>
-  Pack apart(Member member) const {
+  [[gnu::always_inline]] Pack apart(Member member) const {
     return Pack([&](auto l) { return member(*a[l]); }) - Pack([&](auto l) { return member(*b[l]); });
   }
   template <class Member>
-  Pack of_a(Member member) const {
+  [[gnu::always_inline]] Pack of_a(Member member) const {
     return Pack([&](auto l) { return member(*a[l]); });
   }
   template <class Member>
-  Pack of_b(Member member) const {
+  [[gnu::always_inline]] Pack of_b(Member member) const {
     return Pack([&](auto l) { return member(*b[l]); });
   }
 };
 
 /// Turning of both surfaces: v - turn x n is the velocity of a's surface against b's.
-inline void add_turning(const Pack (&turn)[3], const Pack (&normal)[3], Pack (&velocity)[3]) {
+[[gnu::always_inline]] inline void add_turning(const Pack (&turn)[3], const Pack (&normal)[3], Pack (&velocity)[3]) {
   Pack moved[3];
   cross(turn, normal, moved);
   for (int d = 0; d < 3; ++d) velocity[d] = velocity[d] - moved[d];
@@ -62,8 +63,8 @@ inline void add_turning(const Pack (&turn)[3], const Pack (&normal)[3], Pack (&v
 /// `width` lanes of a block from `first` on. Returns the smallest sub-step that they allow; sets bits of lanes whose
 /// contact begins, ends or bonds, which are left as they are.
 template <bool rotation>
-inline double some_contacts(const SpringLaw& law, double h, const Body* bodies, int first, Springs& s,
-                            std::uint32_t& events) {
+inline double some_contacts(const SpringLaw& law, double h, const Body* bodies, const PairConstants* pairs, int first,
+                            Springs& s, Pull* pulls, std::uint32_t& events) {
   const Pack zero(0.0);
   Ends ends;
   for (int l = 0; l < width; ++l) {
@@ -80,16 +81,24 @@ inline double some_contacts(const SpringLaw& law, double h, const Body* bodies, 
   for (int d = 0; d < 3; ++d) apart[d] = ends.apart([d](const Body& body) { return body.x[d]; });
   const Pack distance2 = dot(apart, apart), distance = root(distance2);
   for (int d = 0; d < 3; ++d) e.normal[d] = apart[d] / distance;
-  e.overlap = load(s.reach + first) - distance - load(s.offset + first);
+  const auto of_pair = [&](auto member) {
+    if (s.one_pair) return Pack(member(pairs[s.pair[0]]));
+    return Pack([&](auto l) { return member(pairs[s.pair[first + l]]); });
+  };
+  e.overlap = of_pair([](const PairConstants& p) { return p.reach; }) - distance - load(s.offset + first);
   for (int d = 0; d < 3; ++d) {
     e.half[d] = ends.apart([d](const Body& body) { return body.v[d]; });
     e.end[d] = e.half[d] + ends.apart([d](const Body& body) { return body.kick[d]; });
   }
   e.closing = zero - dot(e.normal, e.end);
 
-  c.inverse_mass = load(s.inverse_mass + first), c.knee = load(s.knee + first);
-  c.pull_off = load(s.pull_off + first), c.pull_stiffness = load(s.pull_stiffness + first);
-  c.well = load(s.well + first), c.eta_pull = load(s.eta_pull + first), c.pull_step = load(s.pull_step + first);
+  c.inverse_mass = of_pair([](const PairConstants& p) { return p.inverse_mass; });
+  c.knee = of_pair([](const PairConstants& p) { return p.knee; });
+  c.pull_off = of_pair([](const PairConstants& p) { return p.pull_off; });
+  c.pull_stiffness = of_pair([](const PairConstants& p) { return p.pull_stiffness; });
+  c.well = of_pair([](const PairConstants& p) { return p.well; });
+  c.eta_pull = of_pair([](const PairConstants& p) { return p.eta_pull; });
+  c.pull_step = of_pair([](const PairConstants& p) { return p.pull_step; });
   c.stiffness = load(s.stiffness + first), c.eta = load(s.eta + first), c.push_step = load(s.push_step + first);
   c.knee_stiffness = load(s.knee_stiffness + first);
   turn_phase(e.overlap, e.closing, c);
@@ -103,7 +112,7 @@ inline double some_contacts(const SpringLaw& law, double h, const Body* bodies, 
     for (int l = 0; l < width; ++l) events |= (event[l] ? 1u : 0u) << (first + l);
 
   if constexpr (rotation) {
-    const Pack arm_a = load(s.share + first) * distance, arm_b = distance - arm_a;
+    const Pack arm_a = of_pair([](const PairConstants&p) { return p.share; }) * distance, arm_b = distance - arm_a;
     Pack half[3], end[3];
     for (int d = 0; d < 3; ++d) {
       const Pack w_a = ends.of_a([d](const Body& body) { return body.w[d]; });
@@ -129,19 +138,27 @@ inline double some_contacts(const SpringLaw& law, double h, const Body* bodies, 
   store(goes_on, answer.limit, s.limit + first);
   store(goes_on, c.max_force, s.max_force + first);
   store(goes_on, c.max_overlap, s.max_overlap + first);
+  alignas(64) double pull[6][width];
   for (int d = 0; d < 3; ++d) {
     store(goes_on, c.slip[d], s.slip[d] + first);
-    store(goes_on, answer.force[d], s.force[d] + first);
-    if constexpr (rotation) store(goes_on, distance * answer.moment[d], s.moment[d] + first);
+    answer.force[d].copy_to(pull[d], stdx::vector_aligned);
+    if constexpr (rotation) (distance * answer.moment[d]).copy_to(pull[3 + d], stdx::vector_aligned);
+  }
+  for (int l = 0; l < width; ++l) {
+    if (!goes_on[l]) continue;
+    for (int d = 0; d < 3; ++d) pulls[first + l].force[d] = pull[d][l];
+    if constexpr (rotation)
+      for (int d = 0; d < 3; ++d) pulls[first + l].moment[d] = pull[3 + d][l];
   }
   return stdx::hmin(select(goes_on, next_step(law, n, e, c), Pack(1e300)));
 }
 
-double contacts(const SpringLaw& law, double h, const Body* bodies, Springs& block, std::uint32_t& events) {
+double contacts(const SpringLaw& law, double h, const Body* bodies, const PairConstants* pairs, Springs& block,
+                Pull* pulls, std::uint32_t& events) {
   double step = 1e300;
   for (int first = 0; first < Springs::lanes; first += width) {
-    const double allowed = law.rotation ? some_contacts<true>(law, h, bodies, first, block, events)
-                                        : some_contacts<false>(law, h, bodies, first, block, events);
+    const double allowed = law.rotation ? some_contacts<true>(law, h, bodies, pairs, first, block, pulls, events)
+                                        : some_contacts<false>(law, h, bodies, pairs, first, block, pulls, events);
     step = allowed < step ? allowed : step;
   }
   return step;

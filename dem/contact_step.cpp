@@ -20,11 +20,11 @@ using Eigen::Vector3d;
 constexpr double never = std::numeric_limits<double>::infinity();
 constexpr double bend_way = 0.05;  // of the overlap over which adhesion bends the curve, in one sub-step
 
-single::Spring<double> load(const Springs& s, int l) {
+single::Spring<double> load(const Springs& s, int l, const PairConstants& pair) {
   single::Spring<double> c{};
-  c.phase = s.phase[l], c.inverse_mass = s.inverse_mass[l], c.knee = s.knee[l];
-  c.pull_off = s.pull_off[l], c.pull_stiffness = s.pull_stiffness[l], c.well = s.well[l];
-  c.eta_pull = s.eta_pull[l], c.pull_step = s.pull_step[l];
+  c.phase = s.phase[l], c.inverse_mass = pair.inverse_mass, c.knee = pair.knee;
+  c.pull_off = pair.pull_off, c.pull_stiffness = pair.pull_stiffness, c.well = pair.well;
+  c.eta_pull = pair.eta_pull, c.pull_step = pair.pull_step;
   c.stiffness = s.stiffness[l], c.eta = s.eta[l], c.push_step = s.push_step[l];
   c.slip_stiffness = s.slip_stiffness[l], c.eta_slip = s.eta_slip[l], c.knee_stiffness = s.knee_stiffness[l];
   for (int d = 0; d < 3; ++d) c.slip[d] = s.slip[d][l];
@@ -73,11 +73,9 @@ struct Look {
 /// A candidate that is apart: how long may the next sub-step be, so as not to run far into the contact?
 Look look_at(std::size_t index, const Substep& substep, const Rules& rules, const Cluster& cluster) {
   const Touch& touch = cluster.touches[index];
-  const Springs& s = cluster.block(index);
-  const int l = static_cast<int>(index) % Springs::lanes;
   const Body& a = cluster.bodies[touch.a];
   const Body* b = touch.b >= 0 ? &cluster.bodies[touch.b] : nullptr;
-  const Meeting m = meet(touch, s.reach[l], s.share[l], a, b);
+  const Meeting m = meet(touch, cluster.constants[touch.pair], a, b);
   const PairLaw& pair = cluster.pairs[touch.pair].law;
   Look look;
   if (surfaces_meet(m.overlap, a.radius)) {
@@ -115,14 +113,16 @@ Followed follow(std::size_t index, double h, double share, const Rules& rules, C
   const SpringLaw& springs = rules.springs(wall);
   const PairNumbers& pair = cluster.pairs[touch.pair];
 
-  const Meeting m = meet(touch, s.reach[l], s.share[l], a, b);
+  const Meeting m = meet(touch, cluster.constants[touch.pair], a, b);
   single::Encounter<double> e = encounter(m, s.offset[l], a, b);
-  single::Spring<double> c = load(s, l);
+  single::Spring<double> c = load(s, l, cluster.constants[touch.pair]);
   single::turn_phase(e.overlap, e.closing, c);
   Followed result;
   const bool bonded = c.phase == lane::bonded;
-  if (!bonded && e.overlap <= -pair.law.jkr.stretch && e.closing < 0.0) return {true, never, 0.0, 0.0, Vector3d::Zero()};
-  const single::Normal<double> n = law.hertz ? elastic_force(e.overlap, rules.rotation, law, springs, pair, c)
+  if (!bonded && e.overlap <= -pair.law.jkr.stretch && e.closing < 0.0)
+    return {true, never, 0.0, 0.0, Vector3d::Zero()};
+  const single::Normal<double> n = law.hertz ? elastic_force(e.overlap, rules.rotation, law, springs, pair.law,
+                                                             cluster.constants[touch.pair].eta_pull, c)
                                              : single::linear_normal(springs, e.overlap, e.closing, c);
   if (bonded && e.overlap <= 0.0 && -n.spring >= c.pull_off) return {true, never, 0.0, 0.0, Vector3d::Zero()};
   const single::Answer<double> answer = single::contact_force(springs, h, share, n, e, c);
@@ -131,8 +131,8 @@ Followed follow(std::size_t index, double h, double share, const Rules& rules, C
   store(c, s, l);
   s.limit[l] = answer.limit;
   for (int d = 0; d < 3; ++d) {
-    s.force[d][l] = answer.force[d];
-    s.moment[d][l] = (m.arm_a + m.arm_b) * answer.moment[d];
+    cluster.pulls[index].force[d] = answer.force[d];
+    if (rules.rotation) cluster.pulls[index].moment[d] = (m.arm_a + m.arm_b) * answer.moment[d];
     result.tangential[d] = answer.tangential[d];
   }
   result.spring = c.spring, result.dashpot = c.dashpot;
@@ -152,7 +152,9 @@ Wish follow_block(std::size_t block, const Substep& substep, const Rules& rules,
     if (s.phase[l] > lane::free) (in_packs && s.b[l] >= 0 ? pairs : single_ones) |= bit;
   }
   Wish wish{never, (pairs | single_ones) != 0};
-  if (pairs) wish.step = pair_contacts_here(rules.carrier_springs, substep.h, cluster.bodies.data(), s, events);
+  if (pairs)
+    wish.step = pair_contacts_here(rules.carrier_springs, substep.h, cluster.bodies.data(), cluster.constants.data(), s,
+                                   cluster.pulls.data() + first, events);
   for (int l = 0; single_ones >> l; ++l) {
     if (!(single_ones >> l & 1)) continue;
     const Followed followed = follow(first + l, substep.h, substep.h, rules, cluster);

@@ -1,6 +1,6 @@
 #pragma once
-// One force evaluation of the touches of a cluster. What goes on is computed block by block, in parallel; what begins or
-// ends changes velocities, so it follows in the order of the touches (contact_events.cpp).
+// One force evaluation of the touches of a cluster. What goes on is computed block by block, in parallel; what begins
+// or ends changes velocities, so it follows in the order of the touches (contact_events.cpp).
 
 #include "dem/cluster.hpp"
 
@@ -35,7 +35,8 @@ struct Followed {
 };
 Followed follow(std::size_t index, double h, double share, const Rules& rules, Cluster& cluster);
 
-/// Largest sub-step [s] for an oscillation of `stiffness` [N/m]: a part of the contact time of an impact that ends at it.
+/// Largest sub-step [s] for an oscillation of `stiffness` [N/m]: a part of the contact time of an impact that ends at
+/// it.
 double allowed_step(const SpringLaw& law, const PairLaw& pair, double stiffness);
 
 /// Keeps the largest overlap of the touch in the cluster's record.

@@ -18,15 +18,14 @@ struct Meeting {
   double arm_a = 0.0, arm_b = 0.0;  // from the centres to the place of contact [m]
 };
 
-/// in: reach and share as in Springs.
-inline Meeting meet(const Touch& touch, double reach, double share, const Body& a, const Body* b) {
+inline Meeting meet(const Touch& touch, const PairConstants& pair, const Body& a, const Body* b) {
   Meeting m;
   if (b != nullptr) {
     const Eigen::Vector3d apart = vec(a.x) - vec(b->x);
     const double distance = apart.norm();
     m.normal = distance > 0.0 ? Eigen::Vector3d(apart / distance) : touch.memory.normal;
-    m.overlap = reach - distance;
-    m.arm_a = share * distance;  // the arms add up to the distance: angular momentum is kept exactly
+    m.overlap = pair.reach - distance;
+    m.arm_a = pair.share * distance;  // the arms add up to the distance: angular momentum is kept exactly
     m.arm_b = distance - m.arm_a;
   } else {
     m.normal = touch.plane.normal;

@@ -10,8 +10,7 @@
 namespace puffin::dem {
 
 single::Normal<double> elastic_force(double overlap, bool rotation, const SurfaceLaw& law, const SpringLaw& springs,
-                                     const PairNumbers& numbers, single::Spring<double>& c) {
-  const PairLaw& pair = numbers.law;
+                                     const PairLaw& pair, double eta_pull, single::Spring<double>& c) {
   const bool bonded = c.phase == lane::bonded;
   single::Normal<double> n{};
   n.least = -std::numeric_limits<double>::infinity();
@@ -26,7 +25,7 @@ single::Normal<double> elastic_force(double overlap, bool rotation, const Surfac
   } else if (bonded && overlap <= 0.0) {  // the spring of a bond in tension; it breaks at F0
     n.spring = pair.pull_stiffness * overlap;
     n.tangent = pair.pull_stiffness;
-    n.eta = numbers.eta_pull;
+    n.eta = eta_pull;
     n.lean = pair.pull_off;
   } else {
     n.spring = hertz_force(law.moduli.normal, a, std::max(0.0, overlap)) - pair.constant_pull;

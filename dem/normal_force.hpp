@@ -13,6 +13,6 @@ namespace puffin::dem {
 /// Friction leans on F_n + F0 (DMT: the Hertz part of the force; bonds alike), on F_n + 2 F_c for JKR (Thornton & Yin,
 /// Powder Technol. 65, 153 (1991)).
 single::Normal<double> elastic_force(double overlap, bool rotation, const SurfaceLaw& law, const SpringLaw& springs,
-                                     const PairNumbers& pair, single::Spring<double>& c);
+                                     const PairLaw& pair, double eta_pull, single::Spring<double>& c);
 
 }  // namespace puffin::dem

@@ -67,9 +67,10 @@ void settle(const Rules& rules, const Cluster& cluster, State& state) {
     if (rules.rotation && grip.contacts < 3) grip.hold *= std::clamp(rolling, free_rolling, 1.0);
     const Vector3d net = vec(body.force) + record.drag_force + record.steady;
     const double energy = 2.0 * still_way * body.radius * grip.hold * body.inverse_mass;  // of stopping, per mass
-    const bool still = grip.contacts > 0 && grip.hold > 0.0 && grip.use <= rules.integration.sleep_use &&
-                       net.norm() <= still_force * grip.hold &&
-                       vec(body.v).squaredNorm() + 0.4 * body.radius * body.radius * vec(body.w).squaredNorm() <= energy;
+    const bool still =
+        grip.contacts > 0 && grip.hold > 0.0 && grip.use <= rules.integration.sleep_use &&
+        net.norm() <= still_force * grip.hold &&
+        vec(body.v).squaredNorm() + 0.4 * body.radius * body.radius * vec(body.w).squaredNorm() <= energy;
     rest.steps_at_rest = still ? rest.steps_at_rest + 1 : 0;
     if (rest.steps_at_rest < rules.integration.sleep_steps) continue;
     const std::int32_t i = record.carrier;

@@ -45,9 +45,14 @@ std::int32_t pair_numbers(const PairNumbers& wanted, const Rules& rules, Cluster
   const SurfaceLaw& law = rules.law(p.wall);
   p.law = pair_law(law, p.radius_a, p.single_a, p.radius_b, p.single_b, 1.0 / p.inverse_mass, p.strength);
   if (law.hertz) p.law.longest_step = rayleigh_part * law.rayleigh * std::sqrt(p.lightest);
-  p.knee = law.stiffness > 0.0 ? 5.0 * p.law.allowed : p.law.allowed;  // a given stiffness is left alone longer
-  p.eta_pull = 2.0 * law.zeta * std::sqrt(p.law.mass * p.law.pull_stiffness);
-  p.pull_step = allowed_step(rules.springs(p.wall), p.law, p.law.pull_stiffness);
+  PairConstants& c = cluster.constants.emplace_back();
+  c.reach = p.wall ? p.radius_a : p.radius_a + p.radius_b;
+  c.share = p.wall ? 1.0 : p.radius_a / c.reach;
+  c.inverse_mass = 1.0 / p.law.mass;
+  c.knee = law.stiffness > 0.0 ? 5.0 * p.law.allowed : p.law.allowed;  // a given stiffness is left alone longer
+  c.pull_off = p.law.pull_off, c.well = p.law.well, c.pull_stiffness = p.law.pull_stiffness;
+  c.eta_pull = 2.0 * law.zeta * std::sqrt(p.law.mass * p.law.pull_stiffness);
+  c.pull_step = allowed_step(rules.springs(p.wall), p.law, p.law.pull_stiffness);
   return static_cast<std::int32_t>(cluster.pairs.size()) - 1;
 }
 
@@ -64,7 +69,8 @@ Rules::Rules(const Models& models)
       wall_springs(springs_of(wall, *this)) {}
 
 void Cluster::clear() {
-  bodies.clear(), records.clear(), touches.clear(), springs.clear(), pairs.clear();
+  bodies.clear(), records.clear(), touches.clear();
+  springs.clear(), pulls.clear(), pairs.clear(), constants.clear();
   begun.clear(), ended.clear();
   body_steps = 0;
   largest_overlap = 0.0;
@@ -107,17 +113,16 @@ std::int32_t add_touch(std::int32_t a, std::int32_t b, const Rules& rules, Clust
     std::fill(std::begin(fresh.phase), std::end(fresh.phase), lane::lost);
     std::fill(std::begin(fresh.a), std::end(fresh.a), 0);
     std::fill(std::begin(fresh.b), std::end(fresh.b), 0);
+    std::fill(std::begin(fresh.pair), std::end(fresh.pair), touch.pair);
+    fresh.one_pair = 1;
+    cluster.pulls.resize(cluster.pulls.size() + Springs::lanes, Pull{});
   }
   Springs& s = cluster.springs.back();
-  const PairNumbers& pair = cluster.pairs[touch.pair];
   s.a[l] = a, s.b[l] = b;
+  s.pair[l] = touch.pair;
+  if (touch.pair != s.pair[0]) s.one_pair = 0;
   s.phase[l] = lane::free;
-  s.reach[l] = b >= 0 ? wanted.radius_a + wanted.radius_b : wanted.radius_a;
-  s.share[l] = b >= 0 ? wanted.radius_a / s.reach[l] : 1.0;
-  s.inverse_mass[l] = 1.0 / pair.law.mass;
-  s.knee[l] = pair.knee, s.pull_off[l] = pair.law.pull_off, s.pull_stiffness[l] = pair.law.pull_stiffness;
-  s.well[l] = pair.law.well, s.eta_pull[l] = pair.eta_pull, s.pull_step[l] = pair.pull_step;
-  for (int d = 0; d < 3; ++d) s.force[d][l] = s.moment[d][l] = 0.0;
+  cluster.pulls[index].share = cluster.constants[touch.pair].share;
   s.idle_until = s.latest = 0.0;
   return index;
 }
@@ -144,7 +149,7 @@ void restore_contact(std::int32_t index, const Contact& memory, const Rules& rul
   s.phase[l] = static_cast<double>(memory.phase);
   s.stiffness[l] = memory.stiffness, s.offset[l] = memory.offset;
   s.slip_stiffness[l] = memory.slip_stiffness, s.knee_stiffness[l] = memory.knee_stiffness;
-  for (int d = 0; d < 3; ++d) s.slip[d][l] = memory.slip[d], s.force[d][l] = memory.force[d], s.moment[d][l] = 0.0;
+  for (int d = 0; d < 3; ++d) s.slip[d][l] = memory.slip[d];
   s.spring[l] = s.dashpot[l] = s.limit[l] = 0.0;
   s.max_force[l] = memory.max_force, s.max_overlap[l] = memory.max_overlap;
   set_dashpots(index, rules, cluster);
@@ -158,16 +163,19 @@ void store_contact(std::size_t index, const Rules& rules, Cluster& cluster) {
   c.phase = static_cast<ContactPhase>(s.phase[l]);
   c.stiffness = s.stiffness[l], c.offset = s.offset[l];
   c.slip_stiffness = s.slip_stiffness[l], c.knee_stiffness = s.knee_stiffness[l];
-  for (int d = 0; d < 3; ++d) c.slip[d] = s.slip[d][l], c.force[d] = s.force[d][l];
+  for (int d = 0; d < 3; ++d) c.slip[d] = s.slip[d][l];
+  c.force = vec(cluster.pulls[index].force);
   c.normal_force = s.spring[l] + s.dashpot[l];
   c.max_force = s.max_force[l], c.max_overlap = s.max_overlap[l];
-  c.normal = meet(touch, s.reach[l], s.share[l], cluster.bodies[touch.a], touch.b >= 0 ? &cluster.bodies[touch.b] : nullptr).normal;
+  const Body* b = touch.b >= 0 ? &cluster.bodies[touch.b] : nullptr;
+  c.normal = meet(touch, cluster.constants[touch.pair], cluster.bodies[touch.a], b).normal;
   // What holds it, and how much of that is in use.
   const double tangential = (c.force - c.normal * c.normal_force).norm(), limit = s.limit[l];
   c.use = limit > 0.0 ? std::min(1.0, tangential / limit) : 1.0;
   c.use = std::max(c.use, touch.rolling_use);
   const double pull = cluster.pairs[touch.pair].law.largest_pull();
-  const bool held = pull > 0.0 && (c.phase == ContactPhase::bonded || rules.law(touch.b < 0).attraction != Attraction::well);
+  const bool held =
+      pull > 0.0 && (c.phase == ContactPhase::bonded || rules.law(touch.b < 0).attraction != Attraction::well);
   c.hold = std::min(limit, held ? pull : s.spring[l]);
   if (held) c.use = std::max(c.use, std::max(0.0, -s.spring[l]) / pull);
 }
