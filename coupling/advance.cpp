@@ -134,6 +134,7 @@ void step_air(const Models& models, int steps, double rescale, std::span<const C
       return collided;
     }();
     if (report.bad) report_bad_cell(air, s.scale, s.time);
+    lbm::keep_mass(constants.rescale, s.pores, air, s.air_mass);
     s.extremes.max_speed_lu = std::max(s.extremes.max_speed_lu, std::sqrt(report.max_speed2));
     s.extremes.min_tau = std::min(s.extremes.min_tau, tau);
   }

@@ -27,6 +27,7 @@
 #include "dem/state.hpp"
 #include "lbm/air.hpp"
 #include "lbm/inlet_turbulence.hpp"
+#include "lbm/mass_book.hpp"
 #include "lbm/mass_fluxes.hpp"
 #include "lbm/pore_space.hpp"
 #include "lbm/scalars/advance_scalars.hpp"
@@ -117,6 +118,7 @@ struct State {
   double step_factor = 1.0;  // of the time step; halved by each retreat from a failure
 
   std::optional<lbm::Air> air;
+  lbm::MassBook air_mass;
   lbm::Drive drive;
   std::vector<double> inlet_way;  // [m] that the mean flow has gone since the start; one entry a Models::turbulence
   CellIndex cells;

@@ -39,6 +39,11 @@ void fields(auto& archive, Is<Extremes> auto& extremes) {
   archive(max_speed_lu, min_dt, max_dt, min_tau);
 }
 
+void fields(auto& archive, Is<lbm::MassBook> auto& book) {
+  auto& [cells, booked, missing, returned, corrections] = book;
+  archive(cells, booked, missing, returned, corrections);
+}
+
 void fields(auto& archive, Is<Fines> auto& fines) {
   auto& [initial, left, emitted, stuck, placed, loaded, to_air, to_wall, regained, picked_up, without_air, slip] =
       fines;
@@ -65,11 +70,12 @@ namespace {
 
 /// What is neither air nor carriers nor fines.
 void time_fields(auto& archive, Is<State> auto& state) {
-  auto& [time, scale, step_factor, air, drive, inlet_way, cells, touched, carriers, fines, collisions, first_motion,
-         departures, events, stencils, stencils_at, spread_on, samples, gradients, spreader, impulse_on_air, momentum,
-         loads, pores, pressure_forces, release, scalars, budget, fluxes, routes, steps_since_scalars,
-         seconds_since_scalars, steps_per_scalar_update, airborne, fines_drift, effort, extremes] = state;
-  archive(time, scale.dt, step_factor, inlet_way, collisions, departures, pores.share, stencils_at.position,
+  auto& [time, scale, step_factor, air, air_mass, drive, inlet_way, cells, touched, carriers, fines, collisions,
+         first_motion, departures, events, stencils, stencils_at, spread_on, samples, gradients, spreader,
+         impulse_on_air, momentum, loads, pores, pressure_forces, release, scalars, budget, fluxes, routes,
+         steps_since_scalars, seconds_since_scalars, steps_per_scalar_update, airborne, fines_drift, effort, extremes] =
+      state;
+  archive(time, scale.dt, step_factor, air_mass, inlet_way, collisions, departures, pores.share, stencils_at.position,
           stencils_at.radius, impulse_on_air, momentum, steps_since_scalars, seconds_since_scalars,
           steps_per_scalar_update, airborne, fines_drift, effort, extremes);
 }
