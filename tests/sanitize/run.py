@@ -3,10 +3,9 @@
 
 usage: run.py BUILD_DIR [--tests REGEX] [--tbb FOLDER] [--threads 4] [--seconds 900] [--table FILE.csv]
 
-BUILD_DIR is that of the preset tsan, debug or fuzz. Every test_* in BUILD_DIR/tests whose name matches runs on THREADS
-threads (oneTBB takes as many as there are processors otherwise: the test programs are told by taskset at most), then
-coupled_run. --tbb: folder of a libtbb.so that was itself built with the sanitizer (build_tbb.sh). A report of the sanitizer ends a
-program with exit code 66, or stands in what it said. Exits 1 if anything failed.
+BUILD_DIR is that of the preset tsan, debug or fuzz. Runs every test_* in BUILD_DIR/tests whose name matches, on as many
+threads as there are processors, then coupled_run on THREADS. --tbb: folder of a libtbb.so that was itself built with the
+sanitizer (build_tbb.sh). What a sanitizer found stands in what a program said. Exits 1 if anything failed.
 """
 
 import argparse
