@@ -44,7 +44,7 @@ TEST(Interpolate, AUniformFlowIsReadAsItIsBesideWallsToo) {
   for (std::size_t p = 0; p < s.position.size(); ++p) {
     EXPECT_NEAR(air.velocity_lu[p].x(), 0.1f, 1e-14);
     EXPECT_EQ(air.velocity_lu[p].y(), 0.0);
-    }
+  }
 }
 
 TEST(Interpolate, ALinearFlowAndItsGradientAreReadExactlyAwayFromWalls) {
