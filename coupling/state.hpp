@@ -131,9 +131,9 @@ struct State {
   std::vector<Departure> departures;
   dem::Events events;  // of the last exchange; the caller may read and must not keep references
 
-  Stencils stencils;          // of the last interval's start; the reaction of that interval belongs to them
-  StencilPlaces stencils_at;  // what they were built from
-  Stencils spread_on;         // those on which forces lie
+  Stencils stencils;                 // of the last interval's start; the reaction of that interval belongs to them
+  StencilPlaces stencils_at;         // what they were built from
+  std::vector<std::int32_t> forced;  // cells on which the carriers' forces lie
   AirSamples samples;
   AirGradients gradients;  // only where a model needs them
   Spreader spreader;
