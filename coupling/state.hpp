@@ -77,7 +77,7 @@ struct Models {
   std::optional<Regain> regain;     // fines come back to carriers
   std::vector<int>
       triangle_of_slot;        // where walls can take fines: the nearest triangle to a cell beside a wall, else -1
-  int steps_per_exchange = 4;  // air steps between two exchanges with moving carriers
+  int steps_per_exchange = 5;  // air steps between two exchanges with moving carriers
   int steps_per_exchange_asleep = 16;
   bool idle_transport = true;   // leave the transport out until fines are airborne
   bool transport_steps = true;  // transport in longer steps than the exchange interval where the flow allows it
