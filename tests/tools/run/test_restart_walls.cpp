@@ -53,8 +53,9 @@ TEST_P(RestartScenes, KilledTwiceARunEndsAsIfNothingHadHappened) {
   ASSERT_EQ(Child(words("killed", {"--threads", "2", "--resume"}), log("killed")).wait(), 0)
       << file_text(log("killed"));
   expect_same_outputs(folder_ / "whole", folder_ / "killed");
-  if (const auto air = output::read_summary(folder_ / "whole" / "summary.json").air_mass)
+  if (const auto air = output::read_summary(folder_ / "whole" / "summary.json").air_mass) {
     EXPECT_GT(air->corrections, 0);
+  }
 }
 
 const Scene scenes[] = {
