@@ -84,6 +84,7 @@ void Motion::sum_forces(std::size_t i) {
   double force[3] = {0.0, 0.0, 0.0}, torque[3] = {0.0, 0.0, 0.0};
   const bool rolling = rules_.rotation && (rules_.carrier.rolling > 0.0 || rules_.wall.rolling > 0.0);
   const auto add = [&](std::size_t touch, bool second) {
+    if (!cluster_.alive[touch]) return;
     const Pull& pull = cluster_.pulls[touch];
     const double sign = second ? -1.0 : 1.0;
     for (int d = 0; d < 3; ++d) force[d] += sign * pull.force[d];

@@ -220,6 +220,6 @@ template <class R>
     const R near = (R(1.05) * c.knee - e.overlap) / e.closing;
     step = select(reaches, minimum(step, select(over, deep, near)), step);
   }
-  step = stop_at_separation(e.overlap, e.closing, c, step);
+  step = select(c.phase == R(lane::bonded), step, stop_at_separation(e.overlap, e.closing, c, step));
   return mind_the_bond(e.overlap, e.closing, coarse * minimum(n.step, c.pull_step), c, step);
 }

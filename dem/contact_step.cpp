@@ -59,7 +59,7 @@ double hertz_step(const SpringLaw& springs, const PairLaw& pair, const single::N
   const double energy = pair.mass * e.closing * e.closing;
   if (e.overlap < 2.0 * pair.bend && energy < 100.0 * pair.largest_pull() * pair.bend)
     step = std::min(step, bend_way * pair.bend / std::max(std::abs(e.closing), 1e-300));
-  step = single::stop_at_separation(e.overlap + pair.jkr.stretch, e.closing, c, step);
+  if (c.phase != lane::bonded) step = single::stop_at_separation(e.overlap + pair.jkr.stretch, e.closing, c, step);
   return single::mind_the_bond(e.overlap, e.closing, coarse * std::min(n.step, c.pull_step), c, step);
 }
 
