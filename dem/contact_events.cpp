@@ -154,6 +154,7 @@ void end_contact(double time, std::size_t index, Cluster& cluster) {
   touch.rolling_moment = Vector3d::Zero();
   touch.rolling_use = 0.0;
   s.phase[l] = lane::free;
+  cluster.alive[index] = 0;
   s.idle_until = 0.0;
   Pull& pull = cluster.pulls[index];
   for (int d = 0; d < 3; ++d) pull.force[d] = pull.moment[d] = 0.0;
