@@ -190,7 +190,7 @@ double evaluate(std::size_t index, double h, double time, double horizon, const 
     if (parting > 0.0 || (parting == 0.0 && pulled >= 0.0 && !hangs)) return never;
     if (b != nullptr && b->sleeper) b->disturbed = cluster.disturbed = true;
     begin_contact(m, h, time, rules, cluster, touch, a, b);
-    if (hangs) hang(m, pulled, touch, a, b);
+    if (hangs) hang(m, pulled, law, touch, a, b);
     share = time - c.time_start;
     if (b == nullptr && rules.on_wall == OnWall::stick) {
       a.stuck = a.fixed = true;
