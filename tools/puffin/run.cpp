@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "cases/case_error.hpp"
+#include "cases/check_places.hpp"
 #include "cases/write_case.hpp"
 #include "tools/output/render.hpp"
 #include "tools/output/report.hpp"
@@ -58,6 +59,7 @@ int run_command(const RunOptions& options) {
   // Only now: the reference speed, and with it the time step, belong to the whole run that the case describes.
   c.stop.time = s.description.stop.time = std::min(c.stop.time, options.until);
   PointReader(s).check_places(s);
+  for (const std::string& text : cases::carrier_place_warnings(s.description, *s.tree)) log_warning(text);
   const auto out = options.out.empty() ? std::nullopt : std::optional(options.out);
   const output::OutputFolder folder(out, c.name, options.resume);
   announce(folder, c);
