@@ -16,7 +16,8 @@ struct InletNumbers {
   std::string patch;
   double area = 0.0;                // [m^2]
   double largest_mean_speed = 0.0;  // [m/s] until stop.time
-  double reynolds = 0.0;            // of that speed and 4 area / perimeter of the opening
+  double hydraulic_diameter = 0.0;  // 4 area / perimeter of the opening [m]
+  double reynolds = 0.0;            // of that speed and diameter
 };
 
 struct Assessment {

@@ -28,6 +28,9 @@ std::unique_ptr<Simulation> build(const Case& c, const StoredFieldReader& stored
     s->stored_field = from_file(c, "air.field", [&] { return stored_field(*run); });
   }
   build_air(*s);
+  // The maps of the walls have a place for every triangle, carriers or not: fines of an inflow stick to walls too.
+  s->state.collisions = coupling::Collisions(dem::Carriers{}, s->surface.mesh.triangles.size());
+  s->state.fines = coupling::Fines(dem::Carriers{}, 0.0, s->surface.mesh.triangles.size());
   if (c.carriers) build_carriers(*s);
   if (c.fines) build_fines(*s);
   return s;

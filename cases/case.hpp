@@ -153,7 +153,7 @@ struct Numerics {
   double smagorinsky_constant = 0.0;
   bool wall_model = false;
   Precision precision = Precision::float32;
-  int coupling_interval = 4;  // air steps between two exchanges with moving carriers
+  int coupling_interval = 5;  // air steps between two exchanges with moving carriers
   double scalar_cfl = 0.8;    // largest part of a cell's air that leaves it in one step of the transport
   Skip skip;
   int threads = 0;  // 0: all

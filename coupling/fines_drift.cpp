@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "lbm/scalars/run_faces.hpp"
 
 namespace puffin::coupling {
 
 namespace {
+
+constexpr double closed = std::numeric_limits<double>::infinity();  // instead of a rise: nothing beyond the face
 
 /// Calls visit(slot, run) for every active cell, chunk by chunk in parallel.
 template <class Visit>
@@ -85,18 +88,32 @@ void update_drift(const lbm::Rows& rows, const lbm::FaceFluxes& fluxes, const Sc
   const double per_difference = scale.pressure_unit() / (3.0 * scale.density * scale.dx);  // [m/s^2] per lattice unit
   std::vector<double> density = fluxes.density;
   mirror(rows, density);
-  for_each_cell(rows, [&](std::ptrdiff_t s, const lbm::Run& run) {
-    for (int d = 0; d < 3; ++d) {
+  std::vector<double> up(rows.slots()), down(rows.slots());  // rise of the density through the high and the low face
+  for (int d = 0; d < 3; ++d) {
+    const auto& open = fluxes.open[d];
+    for_each_cell(rows, [&](std::ptrdiff_t s, const lbm::Run& run) {
       const std::ptrdiff_t low = s + lbm::offset_low(run, d), high = s + lbm::offset_high(run, d);
-      const bool below = fluxes.open[d][low] == 1, above = fluxes.open[d][s] == 1;
+      up[s] = open[s] == 1 ? density[high] - density[s] : closed;
+      down[s] = open[low] == 1 ? density[s] - density[low] : closed;
+    });
+    mirror(rows, up);
+    mirror(rows, down);
+    for_each_cell(rows, [&](std::ptrdiff_t s, const lbm::Run& run) {
+      const bool above = up[s] != closed, below = down[s] != closed;
       double rise = 0.0;  // of the density over one cell
-      if (above) rise += density[high] - density[s];
-      if (below) rise += density[s] - density[low];
-      if (above && below) rise *= 0.5;
+      if (above && below) {
+        rise = 0.5 * (up[s] + down[s]);
+      } else if (above) {  // a wall below: the rise one face further inside, if there is one
+        const double inside = up[s + lbm::offset_high(run, d)];
+        rise = inside != closed ? inside : up[s];
+      } else if (below) {
+        const double inside = down[s + lbm::offset_low(run, d)];
+        rise = inside != closed ? inside : down[s];
+      }
       const double push = rise * per_difference / density[s] + drift.gravity[d];
       velocity[d][s] += blend * (drift.response_time * push - velocity[d][s]);
-    }
-  });
+    });
+  }
 }
 
 void set_frozen_drift(const lbm::Rows& rows, const std::function<Eigen::Vector3d(const Eigen::Vector3d&)>& air,

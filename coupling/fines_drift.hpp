@@ -52,6 +52,8 @@ std::vector<FinesDrift::WallCell> find_wall_cells(const lbm::Rows& rows, const l
                                                   const std::vector<char>& opening);
 
 /// The drift `seconds` later: v <- v + (1 - exp(-seconds/tau)) (tau (grad p/rho + g) - v), from the lattice's density.
+/// A cell beside a closed face takes the gradient one face further inside: its own density carries the steps of a
+/// staircase of cells, of some per cent of the dynamic pressure, of which the sinks of add_drift() would take one sign.
 /// An empty `velocity` starts at rest.
 void update_drift(const lbm::Rows& rows, const lbm::FaceFluxes& fluxes, const Scale& scale, const FinesDrift& drift,
                   double seconds, DriftVelocity& velocity);

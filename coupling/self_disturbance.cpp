@@ -7,6 +7,7 @@ namespace puffin::coupling {
 namespace {
 
 constexpr double too_small = 2e-3;  // a lambda that is not worth the while
+constexpr double settled = 1e-4;    // a change of lambda after which the next would be a tenth of it
 
 /// oseen_factor() from a table over R/(1 + R), linear between 512 places: within 1e-4.
 double tabulated_oseen(double r) {
@@ -44,17 +45,17 @@ void take_off_self(const Models& m, std::span<const double> solid, const State& 
     const double d = 2.0 * c.single_radius[p], phi = solid.empty() ? 0.0 : solid[p];
     double share = 1.0;
     if (phi > 0.0) {
-      double squares = 0.0;
-      for (const StencilEntry& e : s.stencils.entries(stencil)) squares += e.weight * e.weight;
-      const double own = c.carriers[p] * std::numbers::pi / 6.0 * d * d * d * squares / cell;
+      const double own = c.carriers[p] * std::numbers::pi / 6.0 * d * d * d * stencil.squares / cell;
       share = std::min(1.0, own / phi);
     }
     const double width = kernel_width(2.0 * c.radius[p], s.scale.dx);
     const double answer = lattice_answer(width / kernel_width(0.0, s.scale.dx), tau);
     double lambda = 0.0, single = beta[p] / c.carriers[p];
     for (int n = 0; n < 4; ++n) {  // each round leaves a tenth of the error: drag grows as slip^0.1 here
+      const double last = lambda;
       lambda = share * self_disturbance(single, slip / (1.0 - lambda), width, m.air.viscosity, m.air.density, answer);
       if (lambda < too_small) return;
+      if (std::abs(lambda - last) < settled) break;
       single = drag_coefficient(m.drag, m.air, d, slip / (1.0 - lambda), phi);
     }
     velocity[p] = c.velocity[p] + read / (1.0 - lambda);

@@ -1,5 +1,7 @@
 set(PUFFIN_COUPLING_SOURCES
+  air_steps.cpp
   averaged.cpp
+  carry_fines.cpp
   cell_index.cpp
   checkpoint/carriers.cpp
   checkpoint/file.cpp
@@ -9,16 +11,17 @@ set(PUFFIN_COUPLING_SOURCES
   drag.cpp
   drag_limit.cpp
   field_forces.cpp
+  find_loads.cpp
   fines.cpp
   fines_drift.cpp
   first_motion.cpp
   frozen_fluxes.cpp
   health.cpp
   kernel.cpp
+  lattice_answer.cpp
   regain_fines.cpp
   release_fines.cpp
   replay_fines.cpp
-  lattice_answer.cpp
   self_disturbance.cpp
   slip_history.cpp
   statistics.cpp

@@ -27,6 +27,7 @@
 #include "dem/state.hpp"
 #include "lbm/air.hpp"
 #include "lbm/inlet_turbulence.hpp"
+#include "lbm/mass_book.hpp"
 #include "lbm/mass_fluxes.hpp"
 #include "lbm/pore_space.hpp"
 #include "lbm/scalars/advance_scalars.hpp"
@@ -76,7 +77,7 @@ struct Models {
   std::optional<Regain> regain;     // fines come back to carriers
   std::vector<int>
       triangle_of_slot;        // where walls can take fines: the nearest triangle to a cell beside a wall, else -1
-  int steps_per_exchange = 4;  // air steps between two exchanges with moving carriers
+  int steps_per_exchange = 5;  // air steps between two exchanges with moving carriers
   int steps_per_exchange_asleep = 16;
   bool idle_transport = true;   // leave the transport out until fines are airborne
   bool transport_steps = true;  // transport in longer steps than the exchange interval where the flow allows it
@@ -117,6 +118,7 @@ struct State {
   double step_factor = 1.0;  // of the time step; halved by each retreat from a failure
 
   std::optional<lbm::Air> air;
+  lbm::MassBook air_mass;
   lbm::Drive drive;
   std::vector<double> inlet_way;  // [m] that the mean flow has gone since the start; one entry a Models::turbulence
   CellIndex cells;
@@ -129,9 +131,9 @@ struct State {
   std::vector<Departure> departures;
   dem::Events events;  // of the last exchange; the caller may read and must not keep references
 
-  Stencils stencils;          // of the last interval's start; the reaction of that interval belongs to them
-  StencilPlaces stencils_at;  // what they were built from
-  Stencils spread_on;         // those on which forces lie
+  Stencils stencils;                 // of the last interval's start; the reaction of that interval belongs to them
+  StencilPlaces stencils_at;         // what they were built from
+  std::vector<std::int32_t> forced;  // cells on which the carriers' forces lie
   AirSamples samples;
   AirGradients gradients;  // only where a model needs them
   Spreader spreader;

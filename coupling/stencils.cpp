@@ -5,11 +5,10 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
+#include <bit>
 #include <cmath>
 #include <stdexcept>
-
-#include "coupling/stencil_loop.hpp"
+#include <utility>
 
 namespace puffin::coupling {
 
@@ -28,12 +27,33 @@ struct Block {
   std::vector<int> todo;
 };
 
+/// Bits of the cells that are connected to `seed` through faces, all among `active`, in a block of 3 x 3 x 3.
+std::uint32_t connected(std::uint32_t active, std::uint32_t seed) {
+  constexpr std::uint32_t x0 = 0b001001001001001001001001001, x2 = x0 << 2;  // cells with x = 0, x = 2
+  constexpr std::uint32_t y0 = 0b000000111000000111000000111, y2 = y0 << 6;  // rows with y = 0, y = 2
+  for (std::uint32_t reached = seed, before = 0; true; reached = reached & active) {
+    if (reached == before) return reached;
+    before = reached;
+    reached |= (reached & ~x2) << 1 | (reached & ~x0) >> 1 | (reached & ~y2) << 3 | (reached & ~y0) >> 3 |
+               reached << 9 | reached >> 9;
+  }
+}
+
 /// Drops the weights of cells that are not connected to the heaviest active cell through active cells of the block.
 void keep_connected(int width, Block& block) {
   const int cells = width * width * width;
   int seed = -1;
   for (int n = 0; n < cells; ++n)
     if (block.slots[n] >= 0 && (seed < 0 || block.weights[n] > block.weights[seed])) seed = n;
+  if (width == 3) {
+    std::uint32_t active = 0;
+    for (int n = 0; n < cells; ++n) active |= static_cast<std::uint32_t>(block.slots[n] >= 0) << n;
+    const bool any = seed >= 0 && block.weights[seed] > 0.0;
+    const std::uint32_t reached = any ? connected(active, std::uint32_t{1} << seed) : 0;
+    for (int n = 0; n < cells; ++n)
+      if ((reached >> n & 1) == 0) block.weights[n] = 0.0;
+    return;
+  }
   block.reached.assign(cells, 0);
   block.todo.clear();
   if (seed >= 0 && block.weights[seed] > 0.0) {
@@ -58,41 +78,67 @@ void keep_connected(int width, Block& block) {
     if (!block.reached[n]) block.weights[n] = 0.0;
 }
 
-/// Fills the entries of one carrier; returns their number.
-int fill(const CellIndex& cells, const Kernel& kernel, const Eigen::Vector3d& position, Block& block,
-         Eigen::Vector3d& offset, StencilEntry* entries) {
+using Weights = std::array<std::array<double, 2 * Kernel::max_reach + 1>, 3>;  // by direction
+
+/// Every cell of the block is active: its entries are the products of the weights.
+void fill_whole(int reach, const Weights& weight, const Block& block, Stencil& stencil, StencilEntry* entries) {
+  int n = 0;
+  for (int k = -reach; k <= reach; ++k)
+    for (int j = -reach; j <= reach; ++j) {
+      const double across = weight[1][j + reach] * weight[2][k + reach];
+      for (int i = -reach; i <= reach; ++i, ++n) {
+        const double part = weight[0][i + reach] * across;
+        if (!(part > 0.0)) continue;
+        entries[stencil.count++] = {block.slots[n], static_cast<std::int8_t>(i), static_cast<std::int8_t>(j),
+                                    static_cast<std::int8_t>(k), part};
+        stencil.squares += part * part;
+      }
+    }
+}
+
+/// Fills the entries of one carrier.
+void fill(const CellIndex& cells, const Kernel& kernel, const Eigen::Vector3d& position, Block& block, Stencil& stencil,
+          StencilEntry* entries) {
+  stencil.count = 0;
+  stencil.squares = 0.0;
   const Eigen::Vector3d at = (position - cells.origin()) / cells.dx();
   const int reach = kernel.reach(), width = 2 * reach + 1;
   std::array<int, 3> base;
-  std::array<std::array<double, 2 * Kernel::max_reach + 1>, 3> weight;
+  Weights weight;
   for (int d = 0; d < 3; ++d) {
     base[d] = nearest_cell(at[d]);
-    if (base[d] == nowhere) return 0;
-    offset[d] = at[d] - base[d];
-    kernel.weights(offset[d], weight[d].data());
+    if (base[d] == nowhere) return;
+    stencil.offset[d] = at[d] - base[d];
+    kernel.weights(stencil.offset[d], weight[d].data());
   }
   block.slots.resize(width * width * width);
-  block.weights.resize(width * width * width);
   bool whole = true;
   for (int k = 0, n = 0; k < width; ++k)
-    for (int j = 0; j < width; ++j, n += width) {
+    for (int j = 0; j < width; ++j, n += width)
       whole &= cells.active_slots(base[0] - reach, base[1] + j - reach, base[2] + k - reach, width, &block.slots[n]);
-      const double across = weight[1][j] * weight[2][k];
-      for (int i = 0; i < width; ++i) block.weights[n + i] = weight[0][i] * across;
-    }
-  if (!whole) keep_connected(width, block);
+  if (whole) {  // away from walls: the weights sum to 1 as they are
+    fill_whole(reach, weight, block, stencil, entries);
+    return;
+  }
+  block.weights.resize(width * width * width);
+  for (int k = 0, n = 0; k < width; ++k)
+    for (int j = 0; j < width; ++j)
+      for (int i = 0; i < width; ++i, ++n) block.weights[n] = weight[0][i] * weight[1][j] * weight[2][k];
+  keep_connected(width, block);
   double sum = 0.0;
   for (const double w : block.weights) sum += w;
-  if (!(sum > 0.0)) return 0;
+  if (!(sum > 0.0)) return;
   const double scale = 1.0 / sum;
-  int count = 0, n = 0;
+  int n = 0;
   for (int k = -reach; k <= reach; ++k)
     for (int j = -reach; j <= reach; ++j)
-      for (int i = -reach; i <= reach; ++i, ++n)
-        if (block.weights[n] > 0.0)
-          entries[count++] = {block.slots[n], static_cast<std::int8_t>(i), static_cast<std::int8_t>(j),
-                              static_cast<std::int8_t>(k), block.weights[n] * scale};
-  return count;
+      for (int i = -reach; i <= reach; ++i, ++n) {
+        if (!(block.weights[n] > 0.0)) continue;
+        const double part = block.weights[n] * scale;
+        entries[stencil.count++] = {block.slots[n], static_cast<std::int8_t>(i), static_cast<std::int8_t>(j),
+                                    static_cast<std::int8_t>(k), part};
+        stencil.squares += part * part;
+      }
 }
 
 }  // namespace
@@ -165,48 +211,59 @@ void Stencils::build(const CellIndex& cells, std::span<const Eigen::Vector3d> po
     reach = std::max(reach, kernel_for(2.0 * last / cells.dx()).reach());
   }
   sort_into_tiles(cells, position, carriers, reach);
+  made_.resize(stencils_.size());
   kernels_.resize(stencils_.size());
   std::size_t room = 0;
   last = -1.0;
   const Kernel* kernel = nullptr;
   for (std::size_t s = 0; s < stencils_.size(); ++s) {
-    const double r = radius[stencils_[s].carrier];
-    if (r != last) kernel = &kernel_for(2.0 * r / cells.dx());
-    last = r;
-    kernels_[s] = kernel;
+    const std::int32_t carrier = stencils_[s].carrier;
+    if (radius[carrier] != last) kernel = &kernel_for(2.0 * radius[carrier] / cells.dx());
+    last = radius[carrier];
+    Made& made = made_[s];
+    const bool stays = made.carrier == carrier && made.begin == room && made.diameter == kernel->diameter_in_cells() &&
+                       made.position == position[carrier];
+    made = {carrier, kernel->diameter_in_cells(), position[carrier], room};
+    kernels_[s] = stays ? nullptr : kernel;
     stencils_[s].begin = room;
     const std::size_t width = 2 * kernel->reach() + 1;
     room += width * width * width;
   }
-  if (entries_.size() < room + entries_ahead) entries_.resize(room + entries_ahead);
+  if (entries_.size() < room) entries_.resize(room);
 
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, stencils_.size(), 64), [&](const auto& range) {
     Block block;
-    for (std::size_t s = range.begin(); s != range.end(); ++s) {
-      Stencil& stencil = stencils_[s];
-      stencil.count =
-          fill(cells, *kernels_[s], position[stencil.carrier], block, stencil.offset, entries_.data() + stencil.begin);
-    }
+    for (std::size_t s = range.begin(); s != range.end(); ++s)
+      if (kernels_[s] != nullptr)
+        fill(cells, *kernels_[s], made_[s].position, block, stencils_[s], entries_.data() + made_[s].begin);
   });
 
   outside_.clear();
   for (const Stencil& stencil : stencils_)
     if (stencil.count == 0) outside_.push_back(stencil.carrier);
   std::sort(outside_.begin(), outside_.end());
+  find_cells(cells.slots());
+}
+
+/// Marks every cell in a bit field, then reads it in order.
+void Stencils::find_cells(std::size_t slots) {
+  marks_.resize(slots / 64 + 2, 0);
+  std::size_t first = marks_.size(), last = 0;
+  for (const Stencil& stencil : stencils_)
+    for (const StencilEntry& e : entries(stencil)) {
+      const std::size_t word = static_cast<std::size_t>(e.slot) / 64;
+      marks_[word] |= std::uint64_t{1} << (e.slot % 64);
+      first = std::min(first, word), last = std::max(last, word + 1);
+    }
+  used_.clear();
+  for (std::size_t word = first; word < last; ++word)
+    for (std::uint64_t left = std::exchange(marks_[word], 0); left != 0; left &= left - 1)
+      used_.push_back(static_cast<std::int32_t>(64 * word) + std::countr_zero(left));
 }
 
 void Stencils::mark_runs(const CellIndex& cells, std::vector<char>& touched) const {
   if (touched.size() != cells.run_count()) throw std::invalid_argument("one mark a run is needed");
-  for_each_stencil(*this, [&](const Stencil& stencil) {
-    std::int32_t last = -1;
-    for (const StencilEntry& entry : entries(stencil)) {
-      const std::int32_t run = cells.run(entry.slot);
-      if (run == last) continue;
-      last = run;
-      std::atomic_ref<char> mark(touched[run]);
-      if (!mark.load(std::memory_order_relaxed)) mark.store(1, std::memory_order_relaxed);
-    }
-  });
+  for (const std::int32_t slot : used_) touched[cells.run(slot)] = 1;
 }
 
 }  // namespace puffin::coupling

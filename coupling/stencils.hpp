@@ -27,6 +27,7 @@ struct Stencil {
   std::int32_t carrier = -1;
   std::int32_t count = 0;                            // cells; 0: the carrier is outside (no active cell within reach)
   std::size_t begin = 0;                             // of its entries
+  double squares = 0.0;                              // sum of the squared weights
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();  // carrier minus centre of its nearest cell [cells]
 };
 
@@ -43,6 +44,7 @@ struct Stencil {
 class Stencils {
  public:
   /// in: positions [m] and radii [m] (of the tracked parcel) of all carriers; `carriers`: which of them are wanted.
+  /// Carriers that have not moved since the last call keep their entries: `cells` must be those of the call before.
   /// Throws std::invalid_argument from Kernel for carriers larger than 9 cells.
   void build(const CellIndex& cells, std::span<const Eigen::Vector3d> position, std::span<const double> radius,
              std::span<const int> carriers);
@@ -51,23 +53,31 @@ class Stencils {
   std::span<const StencilEntry> entries(const Stencil& s) const {
     return {entries_.data() + s.begin, static_cast<std::size_t>(s.count)};
   }
-  /// The slot that a loop over the entries of all stencils will meet about two stencils after `e`; for prefetching
-  /// alone.
-  static std::int32_t slot_ahead(const StencilEntry& e) { return std::max((&e)[entries_ahead].slot, 0); }
+  /// The active cells of all stencils, each once, ascending. Some tens of carriers of a bed share each of them, so what
+  /// can be done a cell is not done a stencil.
+  const std::vector<std::int32_t>& cells() const { return used_; }
   /// Carriers without any active cell in reach, ascending. Their stencils are empty: they read zero and give nothing.
   const std::vector<int>& outside() const { return outside_; }
   /// Tile t holds stencils()[tiles()[t]] ... stencils()[tiles()[t + 1] - 1]; t = ty + tile_counts()[0] * tz.
   const std::vector<int>& tiles() const { return tiles_; }
   std::array<int, 2> tile_counts() const { return tile_counts_; }
-  /// Sets touched[run] = 1 for every run of cells in any stencil; never clears. Size: CellIndex::run_count().
+  /// Sets touched[run] = 1 for every run of cells() that the stencils use; never clears. Size: CellIndex::run_count().
   void mark_runs(const CellIndex& cells, std::vector<char>& touched) const;
 
  private:
-  static constexpr int entries_ahead = 54;  // places behind the last entry that may be looked at
   const Kernel& kernel_for(double diameter_in_cells);
   void sort_into_tiles(const CellIndex& cells, std::span<const Eigen::Vector3d> position, std::span<const int> carriers,
                        int reach);
 
+  void find_cells(std::size_t slots);
+
+  /// What the entries of a stencil were made for.
+  struct Made {
+    std::int32_t carrier = -1;
+    double diameter = 0.0;  // [cells]
+    Eigen::Vector3d position;
+    std::size_t begin = 0;
+  };
   struct Place {
     std::int64_t key = 0;  // tile, z, y, x
     std::int32_t carrier = -1;
@@ -77,6 +87,9 @@ class Stencils {
   std::vector<Stencil> stencils_;
   std::vector<StencilEntry> entries_;   // only grows
   std::vector<const Kernel*> kernels_;  // by stencil
+  std::vector<Made> made_;              // by stencil
+  std::vector<std::int32_t> used_;      // cells()
+  std::vector<std::uint64_t> marks_;    // a bit a slot; zero between calls
   std::map<double, Kernel> known_kernels_;
   std::vector<int> outside_, tiles_{0};
   std::array<int, 2> tile_counts_{0, 0};

@@ -4,27 +4,38 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "coupling/stencil_loop.hpp"
 
 namespace puffin::coupling {
 
+namespace {
+
+constexpr std::size_t block_of_cells = 2048;
+std::size_t blocks(std::size_t cells) { return (cells + block_of_cells - 1) / block_of_cells; }
+
+/// Calls visit(block, slot) for each cell, in parallel blocks that do not depend on the number of threads.
+template <class Visit>
+void for_each_cell(std::span<const std::int32_t> slots, const Visit& visit) {
+  tbb::parallel_for(std::size_t{0}, blocks(slots.size()), [&](std::size_t block) {
+    const std::size_t end = std::min(slots.size(), (block + 1) * block_of_cells);
+    for (std::size_t n = block * block_of_cells; n < end; ++n) visit(block, slots[n]);
+  });
+}
+
+}  // namespace
+
 void interpolate(const Stencils& stencils, const lbm::Moments& moments, std::size_t carriers, AirSamples& samples) {
   samples.velocity_lu.resize(carriers, Eigen::Vector3d::Zero());
-  samples.density_excess_lu.resize(carriers, 0.0);
+  samples.in_cells.resize(moments.ux.size());
+  for_each_cell(stencils.cells(), [&](std::size_t, std::int32_t slot) {
+    samples.in_cells[slot] = {moments.ux[slot], moments.uy[slot], moments.uz[slot], 0.0};
+  });
   for_each_stencil(stencils, [&](const Stencil& stencil) {
-    double rho = 0.0, ux = 0.0, uy = 0.0, uz = 0.0;
-    for (const StencilEntry& e : stencils.entries(stencil)) {
-      const std::int32_t ahead = Stencils::slot_ahead(e);
-      for (const auto* field : {&moments.density_excess, &moments.ux, &moments.uy, &moments.uz})
-        __builtin_prefetch(field->data() + ahead);
-      rho += e.weight * static_cast<double>(moments.density_excess[e.slot]);
-      ux += e.weight * static_cast<double>(moments.ux[e.slot]);
-      uy += e.weight * static_cast<double>(moments.uy[e.slot]);
-      uz += e.weight * static_cast<double>(moments.uz[e.slot]);
-    }
-    samples.velocity_lu[stencil.carrier] = {ux, uy, uz};
-    samples.density_excess_lu[stencil.carrier] = rho;
+    Eigen::Vector4d sum = Eigen::Vector4d::Zero();
+    for (const StencilEntry& e : stencils.entries(stencil)) sum += e.weight * samples.in_cells[e.slot];
+    samples.velocity_lu[stencil.carrier] = sum.head<3>();
   });
 }
 
@@ -70,32 +81,22 @@ MomentumBooking Spreader::spread(const Stencils& stencils, std::span<const Eigen
   }
   for_each_by_tile(stencils, [&](int, const Stencil& stencil) {
     const Eigen::Vector3d& j = impulse[stencil.carrier];
-    for (const StencilEntry& e : stencils.entries(stencil)) {
-      __builtin_prefetch(&momentum_[Stencils::slot_ahead(e)], 1);
-      momentum_[e.slot] += e.weight * j;
-    }
+    const Eigen::Vector4d given(j.x(), j.y(), j.z(), 0.0);
+    for (const StencilEntry& e : stencils.entries(stencil)) momentum_[e.slot] += e.weight * given;
   });
-  // Once more over the same cells: book each one when it is met first, and leave the sums zero for the next call.
   const double to_lu = 1.0 / (interval * scale.force());
   struct Part {
     Eigen::Vector3d taken = Eigen::Vector3d::Zero(), rounding_lu = Eigen::Vector3d::Zero();
   };
-  std::vector<Part> parts(stencils.tiles().size() - 1);
-  for_each_by_tile(stencils, [&](int tile, const Stencil& stencil) {
-    for (const StencilEntry& e : stencils.entries(stencil)) {
-      const std::int32_t ahead = Stencils::slot_ahead(e);
-      __builtin_prefetch(&momentum_[ahead], 1);
-      for (float* f : {force.x.data(), force.y.data(), force.z.data()}) __builtin_prefetch(f + ahead, 1);
-      Eigen::Vector3d& cell = momentum_[e.slot];
-      if (cell.x() == 0.0 && cell.y() == 0.0 && cell.z() == 0.0) continue;
-      const Eigen::Vector3d f = cell * to_lu;
-      force.x[e.slot] = static_cast<float>(f.x());
-      force.y[e.slot] = static_cast<float>(f.y());
-      force.z[e.slot] = static_cast<float>(f.z());
-      parts[tile].taken += cell;
-      parts[tile].rounding_lu += Eigen::Vector3d(force.x[e.slot], force.y[e.slot], force.z[e.slot]) - f;
-      cell.setZero();
-    }
+  std::vector<Part> parts(blocks(stencils.cells().size()));
+  for_each_cell(stencils.cells(), [&](std::size_t block, std::int32_t slot) {
+    const Eigen::Vector3d cell = std::exchange(momentum_[slot], Eigen::Vector4d::Zero()).head<3>();
+    const Eigen::Vector3d f = cell * to_lu;
+    force.x[slot] = static_cast<float>(f.x());
+    force.y[slot] = static_cast<float>(f.y());
+    force.z[slot] = static_cast<float>(f.z());
+    parts[block].taken += cell;
+    parts[block].rounding_lu += Eigen::Vector3d(force.x[slot], force.y[slot], force.z[slot]) - f;
   });
   for (const Part& part : parts) {
     books.taken += part.taken;
@@ -104,46 +105,42 @@ MomentumBooking Spreader::spread(const Stencils& stencils, std::span<const Eigen
   return books;
 }
 
-void Spreader::clear(const Stencils& stencils, lbm::BodyForce& force) {
-  for_each_by_tile(stencils, [&](int, const Stencil& stencil) {
-    for (const StencilEntry& e : stencils.entries(stencil)) force.x[e.slot] = force.y[e.slot] = force.z[e.slot] = 0.0f;
-  });
+void Spreader::clear(std::span<const std::int32_t> slots, lbm::BodyForce& force) {
+  for (const std::int32_t slot : slots) force.x[slot] = force.y[slot] = force.z[slot] = 0.0F;
 }
 
 double Spreader::smooth(const Stencils& stencils, std::span<const double> value, double ceiling,
                         std::span<double> result) {
+  add(stencils, value);
+  std::vector<double> largest(blocks(stencils.cells().size()), 0.0);
+  for_each_cell(stencils.cells(), [&](std::size_t block, std::int32_t slot) {
+    largest[block] = std::max(largest[block], scalar_[slot]);
+    scalar_[slot] = std::min(scalar_[slot], ceiling);
+  });
+  for_each_stencil(stencils, [&](const Stencil& stencil) {
+    double sum = 0.0;
+    for (const StencilEntry& e : stencils.entries(stencil)) sum += e.weight * scalar_[e.slot];
+    result[stencil.carrier] = sum;
+  });
+  for (const std::int32_t slot : stencils.cells()) scalar_[slot] = 0.0;
+  return largest.empty() ? 0.0 : *std::max_element(largest.begin(), largest.end());
+}
+
+void Spreader::add(const Stencils& stencils, std::span<const double> value) {
   for_each_by_tile(stencils, [&](int, const Stencil& stencil) {
     const double v = value[stencil.carrier];
     for (const StencilEntry& e : stencils.entries(stencil)) scalar_[e.slot] += e.weight * v;
   });
-  for_each_stencil(stencils, [&](const Stencil& stencil) {
-    double sum = 0.0;
-    for (const StencilEntry& e : stencils.entries(stencil)) sum += e.weight * std::min(scalar_[e.slot], ceiling);
-    result[stencil.carrier] = sum;
-  });
-  std::vector<double> largest(stencils.tiles().size() - 1, 0.0);
-  for_each_by_tile(stencils, [&](int tile, const Stencil& stencil) {
-    for (const StencilEntry& e : stencils.entries(stencil)) {
-      largest[tile] = std::max(largest[tile], scalar_[e.slot]);
-      scalar_[e.slot] = 0.0;
-    }
-  });
-  return largest.empty() ? 0.0 : *std::max_element(largest.begin(), largest.end());
 }
 
 void Spreader::collect(const Stencils& stencils, std::span<const double> value, std::vector<std::int32_t>& slots,
                        std::vector<double>& sums) {
+  add(stencils, value);
   slots.clear(), sums.clear();
-  for_each_by_tile(stencils, [&](int, const Stencil& stencil) {
-    const double v = value[stencil.carrier];
-    for (const StencilEntry& e : stencils.entries(stencil)) scalar_[e.slot] += e.weight * v;
-  });
-  for (const Stencil& stencil : stencils.stencils())
-    for (const StencilEntry& e : stencils.entries(stencil)) {
-      if (scalar_[e.slot] == 0.0) continue;
-      slots.push_back(e.slot), sums.push_back(scalar_[e.slot]);
-      scalar_[e.slot] = 0.0;
-    }
+  for (const std::int32_t slot : stencils.cells()) {
+    const double sum = std::exchange(scalar_[slot], 0.0);
+    if (sum != 0.0) slots.push_back(slot), sums.push_back(sum);
+  }
 }
 
 }  // namespace puffin::coupling

@@ -16,7 +16,7 @@ namespace puffin::coupling {
 /// The air at the carriers, by carrier index, in lattice units. Zero where a carrier has no stencil.
 struct AirSamples {
   std::vector<Eigen::Vector3d> velocity_lu;
-  std::vector<double> density_excess_lu;
+  std::vector<Eigen::Vector4d> in_cells;  // by slot, scratch: the velocity of the cells that are read
 };
 
 /// Gradients of the air at the carriers, by carrier index, a cell.
@@ -25,7 +25,7 @@ struct AirGradients {
   std::vector<Eigen::Vector3d> density_excess_lu;  // a third of it is the pressure gradient
 };
 
-/// The carriers' velocity of the air, u_p = sum_j w_pj u_j, and likewise the density. Arrays grow to `carriers`.
+/// The carriers' velocity of the air, u_p = sum_j w_pj u_j. Arrays grow to `carriers`.
 void interpolate(const Stencils& stencils, const lbm::Moments& moments, std::size_t carriers, AirSamples& samples);
 
 /// Gradients by least squares over the stencil, weighted by its weights:
@@ -47,27 +47,29 @@ struct MomentumBooking {
 class Spreader {
  public:
   Spreader() = default;
-  explicit Spreader(std::size_t slots) : momentum_(slots, Eigen::Vector3d::Zero()), scalar_(slots, 0.0) {}
+  explicit Spreader(std::size_t slots) : momentum_(slots, Eigen::Vector4d::Zero()), scalar_(slots, 0.0) {}
 
   /// Gives every cell of the stencils the force  F_j = sum_p w_pj J_p / interval  (lattice units).
   /// in: `impulse` [N s] on the air by carrier index; `interval` [s] during which the force will act.
-  /// The cells must hold no force: clear() those of the former stencils first.
+  /// The cells must hold no force: clear() those of the interval before first.
   MomentumBooking spread(const Stencils& stencils, std::span<const Eigen::Vector3d> impulse, double interval,
                          const Scale& scale, lbm::BodyForce& force);
-  /// Sets the force of every cell of the stencils to zero.
-  static void clear(const Stencils& stencils, lbm::BodyForce& force);
+  /// Sets the force of cells to zero.
+  static void clear(std::span<const std::int32_t> slots, lbm::BodyForce& force);
 
   /// s_j = sum_p w_pj value_p in every cell, limited to `ceiling`, and read back: result_p = sum_j w_pj s_j.
   /// in: `value` >= 0 by carrier index; out: `result` by carrier index (0 without a stencil; others are left alone).
   /// Returns the largest s_j, before the limit.
   double smooth(const Stencils& stencils, std::span<const double> value, double ceiling, std::span<double> result);
 
-  /// s_j as above, for every cell of the stencils once, in an order that depends on the positions alone.
+  /// s_j as above, for every cell of the stencils once, ascending.
   void collect(const Stencils& stencils, std::span<const double> value, std::vector<std::int32_t>& slots,
                std::vector<double>& sums);
 
  private:
-  std::vector<Eigen::Vector3d> momentum_;  // by slot [N s]
+  void add(const Stencils& stencils, std::span<const double> value);  // s_j into scalar_
+
+  std::vector<Eigen::Vector4d> momentum_;  // by slot [N s]; the fourth place fills the register
   std::vector<double> scalar_;             // by slot
 };
 

@@ -10,6 +10,8 @@
 #include "dem/chains.hpp"
 #include "dem/free_flight.hpp"
 #include "dem/gather.hpp"
+#include "dem/meeting.hpp"
+#include "dem/parts.hpp"
 #include "dem/rest.hpp"
 
 namespace puffin::dem {
@@ -50,25 +52,28 @@ void commit(const Rules& rules, Cluster& cluster, State& state, Events& events) 
   Carriers& all = state.carriers;
   for (std::size_t b = 0; b < cluster.bodies.size(); ++b) {
     const Body& body = cluster.bodies[b];
-    if (body.fixed && !body.stuck) continue;
-    std::swap(state.walls[body.carrier], cluster.walls[b]);
-    const std::int32_t i = body.carrier;
-    all.position[i] = body.x, all.velocity[i] = body.v, all.spin[i] = body.w;
-    state.drag_impulse[i] = body.drag_impulse;
-    if (body.stuck) all.rest[i] = Rest::stuck;
+    const BodyRecord& record = cluster.records[b];
+    if (record.fixed && !record.stuck) continue;
+    const std::int32_t i = record.carrier;
+    std::swap(state.walls[i], cluster.walls[b]);
+    all.position[i] = vec(body.x), all.velocity[i] = vec(body.v), all.spin[i] = vec(body.w);
+    state.drag_impulse[i] = record.drag_impulse;
+    if (record.stuck) all.rest[i] = Rest::stuck;
   }
-  for (const Touch& touch : cluster.touches) {
-    const bool live = touch.memory.phase != ContactPhase::free;
-    if (touch.place >= 0 && !live) {
-      unlink(touch.place, state);
-    } else if (touch.place >= 0) {
+  in_parts(cluster.touches.size(), 1024, [&](std::size_t, std::size_t first, std::size_t last) {
+    for (std::size_t t = first; t < last; ++t) {
+      const Touch& touch = cluster.touches[t];
+      if (touch.place < 0 || !cluster.alive[t]) continue;
       Contact& c = state.contacts[touch.place];
       const std::int32_t next_a = c.next_a, next_b = c.next_b;
       c = touch.memory;
       c.next_a = next_a, c.next_b = next_b;
-    } else if (live) {
-      link(touch.memory, state);
     }
+  });
+  for (std::size_t t = 0; t < cluster.touches.size(); ++t) {
+    const Touch& touch = cluster.touches[t];
+    if (touch.place >= 0 && !cluster.alive[t]) unlink(touch.place, state);
+    if (touch.place < 0 && cluster.alive[t]) link(touch.memory, state);
   }
   settle(rules, cluster, state);
   events.begun.insert(events.begun.end(), cluster.begun.begin(), cluster.begun.end());

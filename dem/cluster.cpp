@@ -1,4 +1,8 @@
+// The sub-steps of a cluster.
+
 #include "dem/cluster.hpp"
+
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
@@ -6,12 +10,11 @@
 #include <stdexcept>
 #include <string>
 
-#include "dem/adhesion_spread.hpp"
 #include "dem/contact_step.hpp"
 #include "dem/first_touch.hpp"
 #include "dem/free_flight.hpp"
-#include "dem/friction.hpp"
-#include "dem/linear_contact.hpp"
+#include "dem/meeting.hpp"
+#include "dem/parts.hpp"
 
 namespace puffin::dem {
 namespace {
@@ -20,232 +23,284 @@ using Eigen::Vector3d;
 constexpr double never = std::numeric_limits<double>::infinity();
 constexpr std::int64_t most_steps = 50'000'000;  // something must be wrong
 constexpr double longest_way_near_walls = 0.2;   // in radii, between two looks
-constexpr double rayleigh_part = 0.2;            // of the Rayleigh time: the longest sub-step of a Hertz contact
+constexpr double longest_growth = 4.0;           // of a sub-step against the one before
 
-/// Contact forces of all touches, then the accelerations; returns the largest next sub-step. `live`: something touches.
-double evaluate_all(double h, double time, double horizon, const Rules& rules, Cluster& cluster, bool& live) {
-  for (Body& body : cluster.bodies) body.force = body.torque = Vector3d::Zero();
-  live = false;
-  cluster.fastest = 0.0;
-  for (const Body& body : cluster.bodies) cluster.fastest = std::max(cluster.fastest, body.v.squaredNorm());
-  cluster.fastest = std::sqrt(cluster.fastest);
-  double step = horizon;
-  for (std::size_t i = 0; i < cluster.touches.size(); ++i)
-    step = std::min(step, evaluate(i, h, time, step, rules, cluster, live));
-  for (Body& body : cluster.bodies) {
-    if (body.sleeper) {
-      const Vector3d change = body.imbalance + body.force;
-      if (change.squaredNorm() > body.limit * body.limit) body.disturbed = cluster.disturbed = true;
-    }
-    if (body.fixed) continue;
-    body.drag_force = body.load.drag * (body.load.air_velocity - body.v - body.kick);
-    body.acceleration = (body.force + body.drag_force + body.steady) * body.inverse_mass;
-    body.turning = (body.torque + body.load.torque) * body.inverse_inertia;
-    if (body.load.drag > 0.0) step = std::min(step, 0.1 / (body.load.drag * body.inverse_mass));
+// A large cluster is shared among threads in parts of this size, some 20 us of work each.
+constexpr std::size_t bodies_a_part = 256, blocks_a_part = 64;
+
+/// What one part of the bodies says after an evaluation.
+struct Said {
+  double step = never;     // the largest next sub-step [s]
+  double fastest2 = 0.0;   // square of the largest speed [m^2/s^2]
+  double look = never;     // time until a body must look at the walls again [s]
+  bool disturbed = false;  // a sleeper must wake
+  bool ask_walls = false;  // a body is where its knowledge of the walls ends
+  bool live = false;
+};
+
+Said merge(const std::vector<Said>& parts) {
+  Said all;
+  for (const Said& p : parts) {
+    all.step = std::min(all.step, p.step), all.look = std::min(all.look, p.look);
+    all.fastest2 = std::max(all.fastest2, p.fastest2);
+    all.disturbed = all.disturbed || p.disturbed;
+    all.ask_walls = all.ask_walls || p.ask_walls;
+    all.live = all.live || p.live;
   }
-  return step;
+  return all;
+}
+
+/// The motion of one cluster over one air step.
+class Motion {
+ public:
+  Motion(double time, double duration, const Rules& rules, const Walls& walls, Cluster& cluster)
+      : time_(time), duration_(duration), rules_(rules), walls_(walls), cluster_(cluster) {}
+  void run();
+
+ private:
+  void evaluate(double h, double horizon);
+  void sum_forces(std::size_t i);
+  void close_step(std::size_t i, double h, Said& said);
+  void kick_and_drift(double h);
+  void fly(double h);
+  double time_of_flight(double horizon) const;
+  bool beyond_trust(std::size_t i) const;
+  void look_again();
+
+  const double time_, duration_;
+  const Rules& rules_;
+  const Walls& walls_;
+  Cluster& cluster_;
+  double elapsed_ = 0.0;
+  double step_ = 0.0;  // the largest next sub-step [s]
+  double look_ = 0.0;  // time until a body must look at the walls again [s]
+  bool live_ = false;  // something touches
+  std::vector<Said> said_;
+};
+
+/// Contact forces on body i, in the order of its touches.
+void Motion::sum_forces(std::size_t i) {
+  Body& body = cluster_.bodies[i];
+  double force[3] = {0.0, 0.0, 0.0}, torque[3] = {0.0, 0.0, 0.0};
+  const bool rolling = rules_.rotation && (rules_.carrier.rolling > 0.0 || rules_.wall.rolling > 0.0);
+  const auto add = [&](std::size_t touch, bool second) {
+    if (!cluster_.alive[touch]) return;
+    const Pull& pull = cluster_.pulls[touch];
+    const double sign = second ? -1.0 : 1.0;
+    for (int d = 0; d < 3; ++d) force[d] += sign * pull.force[d];
+    if (!rules_.rotation) return;
+    const double share = second ? 1.0 - pull.share : pull.share;
+    for (int d = 0; d < 3; ++d) torque[d] -= share * pull.moment[d];
+    if (rolling)
+      for (int d = 0; d < 3; ++d) torque[d] += sign * cluster_.touches[touch].rolling_moment[d];
+  };
+  for (std::int32_t k = cluster_.share_begin[i]; k < cluster_.share_begin[i + 1]; ++k)
+    add(cluster_.shares[k].touch, cluster_.shares[k].second);
+  for (std::int32_t w = cluster_.records[i].first_wall; w >= 0; w = cluster_.touches[w].next_wall) add(w, false);
+  for (int d = 0; d < 3; ++d) body.force[d] = force[d], body.torque[d] = torque[d];
+}
+
+/// After an evaluation: acceleration, the closing half kick of the sub-step h, and what the next may be.
+void Motion::close_step(std::size_t i, double h, Said& said) {
+  Body& body = cluster_.bodies[i];
+  BodyRecord& r = cluster_.records[i];
+  sum_forces(i);
+  if (r.sleeper) {
+    const Vector3d change = r.imbalance + vec(body.force);
+    if (change.squaredNorm() > r.limit * r.limit) r.disturbed = said.disturbed = true;
+  }
+  if (r.stuck) r.deviation2 = std::max(r.deviation2, (vec(body.x) - r.start - elapsed_ * r.course).squaredNorm());
+  if (r.fixed) return;
+  r.drag_force = r.drag * (r.air_velocity - vec(body.v) - vec(body.kick));
+  r.acceleration = (vec(body.force) + r.drag_force + r.steady) * body.inverse_mass;
+  r.turning = (vec(body.torque) + r.torque) * body.inverse_inertia;
+  if (r.drag > 0.0) said.step = std::min(said.step, 0.1 / (r.drag * body.inverse_mass));
+  vec(body.v) += 0.5 * h * r.acceleration;
+  vec(body.w) += 0.5 * h * r.turning;
+  r.drag_impulse += 0.5 * h * r.drag_force;
+  vec(body.kick).setZero(), vec(body.twist).setZero();
+  r.deviation2 = std::max(r.deviation2, (vec(body.x) - r.start - elapsed_ * r.course).squaredNorm());
+  const double speed2 = vec(body.v).squaredNorm();
+  said.fastest2 = std::max(said.fastest2, speed2);
+  // No body may go further without looking at the walls again.
+  const WallCache& cache = cluster_.walls[i];
+  double way = cache.clear - body.radius - (vec(body.x) - cache.asked_at).norm();
+  if (!cache.planes.empty()) way = std::min(way, longest_way_near_walls * body.radius);
+  way = std::max(way, 0.01 * body.radius);
+  if (speed2 * said.look * said.look > way * way) said.look = way / std::sqrt(speed2);
+}
+
+/// Contact forces at the bodies' places, after a sub-step h (0: of the present state), and what follows from them.
+void Motion::evaluate(double h, double horizon) {
+  Cluster& c = cluster_;
+  const Substep substep{h, time_ + elapsed_, horizon};
+  c.events.assign(c.springs.size(), 0);
+  said_.assign((c.springs.size() + blocks_a_part - 1) / blocks_a_part, Said{});
+  in_parts(c.springs.size(), blocks_a_part, [&](std::size_t part, std::size_t first, std::size_t last) {
+    Said& said = said_[part];
+    for (std::size_t block = first; block < last; ++block) {
+      const Wish wish = follow_block(block, substep, rules_, c);
+      said.step = std::min(said.step, wish.step);
+      said.live = said.live || wish.live;
+    }
+  });
+  const Said touches = merge(said_);
+  step_ = std::min(horizon, touches.step);
+  live_ = touches.live;
+  for (std::size_t block = 0; block < c.springs.size(); ++block)
+    for (std::uint32_t bits = c.events[block], l = 0; bits >> l; ++l) {
+      if (!(bits >> l & 1)) continue;
+      const Wish wish = meet_event(block * Springs::lanes + l, substep, rules_, c);
+      step_ = std::min(step_, wish.step);
+      live_ = live_ || wish.live;
+    }
+
+  said_.assign((c.bodies.size() + bodies_a_part - 1) / bodies_a_part, Said{});
+  in_parts(c.bodies.size(), bodies_a_part, [&](std::size_t part, std::size_t first, std::size_t last) {
+    Said said;
+    said.look = duration_;
+    for (std::size_t i = first; i < last; ++i) close_step(i, h, said);
+    said_[part] = said;
+  });
+  const Said bodies = merge(said_);
+  step_ = std::min(step_, bodies.step);
+  look_ = bodies.look;
+  c.fastest = std::sqrt(bodies.fastest2);
+  c.disturbed = c.disturbed || bodies.disturbed;
 }
 
 /// Sub-step h: opening half kick and drift. The closing half kick follows the forces.
-void kick_and_drift(double h, Cluster& cluster) {
-  for (Body& body : cluster.bodies) {
-    if (body.fixed) continue;
-    body.kick = 0.5 * h * body.acceleration;
-    body.twist = 0.5 * h * body.turning;
-    body.v += body.kick;
-    body.w += body.twist;
-    body.drag_impulse += 0.5 * h * body.drag_force;
-    body.x += h * body.v;
-  }
-}
-
-void closing_kick(double h, Cluster& cluster) {
-  for (Body& body : cluster.bodies) {
-    if (body.fixed) continue;
-    body.v += 0.5 * h * body.acceleration;
-    body.w += 0.5 * h * body.turning;
-    body.drag_impulse += 0.5 * h * body.drag_force;
-    body.kick = body.twist = Vector3d::Zero();
-  }
+void Motion::kick_and_drift(double h) {
+  said_.assign((cluster_.bodies.size() + bodies_a_part - 1) / bodies_a_part, Said{});
+  in_parts(cluster_.bodies.size(), bodies_a_part, [&](std::size_t part, std::size_t first, std::size_t last) {
+    bool ask = false;
+    for (std::size_t i = first; i < last; ++i) {
+      BodyRecord& r = cluster_.records[i];
+      if (r.fixed) continue;
+      Body& body = cluster_.bodies[i];
+      vec(body.kick) = 0.5 * h * r.acceleration;
+      vec(body.twist) = 0.5 * h * r.turning;
+      vec(body.v) += vec(body.kick);
+      vec(body.w) += vec(body.twist);
+      r.drag_impulse += 0.5 * h * r.drag_force;
+      vec(body.x) += h * vec(body.v);
+      ask = ask || beyond_trust(i);
+    }
+    said_[part].ask_walls = ask;
+  });
 }
 
 /// All bodies in free flight for h.
-void fly(double h, Cluster& cluster) {
-  for (Body& body : cluster.bodies) {
-    if (body.fixed) continue;
+void Motion::fly(double h) {
+  bool ask = false;
+  for (std::size_t i = 0; i < cluster_.bodies.size(); ++i) {
+    BodyRecord& r = cluster_.records[i];
+    if (r.fixed) continue;
+    Body& body = cluster_.bodies[i];
     const double inertia = body.inverse_inertia > 0.0 ? 1.0 / body.inverse_inertia : never;
-    const Flight end = free_flight(body.x, body.v, body.w, body.mass, inertia, body.load, body.steady, h);
-    body.x = end.position, body.v = end.velocity, body.w = end.spin;
-    body.drag_impulse += end.drag_impulse;
-    body.kick = body.twist = Vector3d::Zero();
+    const Flight end = free_flight(vec(body.x), vec(body.v), vec(body.w), r.mass, inertia, r.load(), r.steady, h);
+    vec(body.x) = end.position, vec(body.v) = end.velocity, vec(body.w) = end.spin;
+    r.drag_impulse += end.drag_impulse;
+    vec(body.kick).setZero(), vec(body.twist).setZero();
+    ask = ask || beyond_trust(i);
   }
+  said_.assign(1, Said{});
+  said_[0].ask_walls = ask;
 }
 
 /// Time until the first touch of anything, at most `horizon`, while nothing is live.
-double time_of_flight(double horizon, const Cluster& cluster) {
+double Motion::time_of_flight(double horizon) const {
   double first = horizon;
-  for (const Touch& touch : cluster.touches) {
-    if (touch.lost) continue;
-    const Body& a = cluster.bodies[touch.a];
+  for (std::size_t i = 0; i < cluster_.touches.size(); ++i) {
+    const Springs& s = cluster_.block(i);
+    const std::size_t l = i % Springs::lanes;
+    if (s.phase[l] == lane::lost) continue;
+    const Touch& touch = cluster_.touches[i];
+    const Body& a = cluster_.bodies[touch.a];
+    const Vector3d acceleration = cluster_.records[touch.a].acceleration;
     if (touch.b >= 0) {
-      const Body& b = cluster.bodies[touch.b];
-      first = std::min(first, first_touch(a.x - b.x, a.v - b.v, a.acceleration - b.acceleration, touch.reach, first));
+      const Body& b = cluster_.bodies[touch.b];
+      first = std::min(first, first_touch(vec(a.x) - vec(b.x), vec(a.v) - vec(b.v),
+                                          acceleration - cluster_.records[touch.b].acceleration,
+                                          cluster_.constants[touch.pair].reach, first));
     } else {
       const Vector3d& n = touch.plane.normal;
-      first = std::min(first, first_zero(touch.plane.gap(a.x, a.radius), n.dot(a.v), n.dot(a.acceleration), first));
+      first =
+          std::min(first, first_zero(touch.plane.gap(vec(a.x), a.radius), n.dot(vec(a.v)), n.dot(acceleration), first));
     }
   }
   return first;
 }
 
-/// Largest time that no body may exceed without looking at the walls again.
-double time_to_look(double horizon, const Cluster& cluster) {
-  double time = horizon;
-  for (std::size_t i = 0; i < cluster.bodies.size(); ++i) {
-    const Body& body = cluster.bodies[i];
-    if (body.fixed) continue;
-    const WallCache& cache = cluster.walls[i];
-    const double speed = body.v.norm();
-    double way = cache.clear - body.radius - (body.x - cache.asked_at).norm();
-    if (!cache.planes.empty()) way = std::min(way, longest_way_near_walls * body.radius);
-    way = std::max(way, 0.01 * body.radius);
-    if (speed * time > way) time = way / speed;
-  }
-  return time;
+/// True if body i is where its knowledge of the walls ends.
+bool Motion::beyond_trust(std::size_t i) const {
+  const WallCache& cache = cluster_.walls[i];
+  const Body& body = cluster_.bodies[i];
+  double radius = cache.clear - body.radius;
+  if (!cache.planes.empty()) radius = std::min(radius, cache.trust);
+  return (vec(body.x) - cache.asked_at).squaredNorm() > radius * std::abs(radius);
 }
 
-void look_again(double time, double remaining, const Rules& rules, const Walls& walls, Cluster& cluster) {
-  for (std::size_t i = 0; i < cluster.bodies.size(); ++i) {
-    Body& body = cluster.bodies[i];
-    if (body.fixed) continue;
-    WallCache& cache = cluster.walls[i];
-    double radius = cache.clear - body.radius;
-    if (!cache.planes.empty()) radius = std::min(radius, cache.trust);
-    if ((body.x - cache.asked_at).squaredNorm() <= radius * std::abs(radius)) continue;
-    look_at_walls(walls, body.x, body.radius, body.v.norm() * remaining, cluster.scratch, cache);
-    match_walls(static_cast<std::int32_t>(i), time, rules, cluster);
+void Motion::look_again() {
+  if (!merge(said_).ask_walls) return;
+  for (std::size_t i = 0; i < cluster_.bodies.size(); ++i) {
+    if (cluster_.records[i].fixed || !beyond_trust(i)) continue;
+    const Body& body = cluster_.bodies[i];
+    look_at_walls(walls_, vec(body.x), body.radius, vec(body.v).norm() * (duration_ - elapsed_), cluster_.scratch,
+                  cluster_.walls[i]);
+    match_walls(static_cast<std::int32_t>(i), time_ + elapsed_, rules_, cluster_);
   }
 }
 
-void note_deviations(double elapsed, Cluster& cluster) {
-  for (Body& body : cluster.bodies) {
-    if (body.fixed && !body.stuck) continue;
-    const double d2 = (body.x - body.start - elapsed * body.course).squaredNorm();
-    if (d2 > body.deviation * body.deviation) body.deviation = std::sqrt(d2);
+void Motion::run() {
+  Cluster& c = cluster_;
+  const std::int64_t moving =
+      std::count_if(c.records.begin(), c.records.end(), [](const BodyRecord& r) { return !r.fixed; });
+  c.fastest = 0.0;
+  for (const Body& body : c.bodies) c.fastest = std::max(c.fastest, vec(body.v).squaredNorm());
+  c.fastest = std::sqrt(c.fastest);
+  evaluate(0.0, duration_);
+  for (std::int64_t taken = 0; elapsed_ < duration_ && !c.disturbed;) {
+    if (++taken > most_steps)
+      throw std::runtime_error("dem: more than " + std::to_string(most_steps) + " sub-steps in one step of " +
+                               std::to_string(duration_) + " s, with carrier " + std::to_string(c.records[0].id) +
+                               "; give shorter steps or a larger max_overlap");
+    const double remaining = duration_ - elapsed_;
+    const bool flies = !live_;
+    double h = std::min(remaining, look_);
+    if (flies) {
+      h = time_of_flight(h);
+      fly(h);
+    } else {
+      h = std::min(h, step_);
+      h = remaining / std::ceil(remaining / h * (1.0 - 1e-12));
+      kick_and_drift(h);
+    }
+    elapsed_ = h == remaining ? duration_ : elapsed_ + h;
+    look_again();
+    const double left = std::max(duration_ - elapsed_, h);
+    if (flies)
+      evaluate(0.0, left);
+    else
+      evaluate(h, std::min(left, longest_growth * h));
+    c.body_steps += moving;
   }
+  if (c.disturbed) return;
+  for (std::size_t i = 0; i < c.touches.size(); ++i)
+    if (c.alive[i]) note_overlap(i, c);
+  in_parts(c.springs.size(), blocks_a_part, [&](std::size_t, std::size_t first, std::size_t last) {
+    for (std::size_t i = first * Springs::lanes; i < std::min(c.touches.size(), last * Springs::lanes); ++i) {
+      if (c.alive[i]) store_contact(i, rules_, c);
+      if (!c.alive[i]) c.touches[i].memory.phase = ContactPhase::free;
+    }
+  });
 }
 
 }  // namespace
 
-void Cluster::clear() {
-  bodies.clear(), touches.clear(), begun.clear(), ended.clear();
-  body_steps = 0;
-  largest_overlap = 0.0;
-  disturbed = false;
-}
-
-Touch& add_touch(std::int32_t a, std::int32_t b, const Rules& rules, Cluster& cluster) {
-  Touch& touch = cluster.touches.emplace_back();
-  touch.a = a, touch.b = b;
-  const Body& first = cluster.bodies[a];
-  if (b >= 0) {
-    const Body& second = cluster.bodies[b];
-    const Spread& spread = rules.carrier.spread;
-    const double strength = std::sqrt(adhesion_factor(spread.seed, first.id, spread.sigma) *
-                                      adhesion_factor(spread.seed, second.id, spread.sigma));
-    touch.pair = pair_law(rules.carrier, first.radius, first.single_radius, second.radius, second.single_radius,
-                          1.0 / (first.inverse_mass + second.inverse_mass), strength);
-    if (rules.carrier.hertz)
-      touch.pair.longest_step = rayleigh_part * rules.carrier.rayleigh *
-                                std::sqrt(std::min(first.mass / first.radius, second.mass / second.radius));
-    touch.reach = first.radius + second.radius;
-  } else {
-    const Spread& spread = rules.wall.spread;
-    touch.pair = pair_law(rules.wall, first.radius, first.single_radius, never, never, first.mass,
-                          adhesion_factor(spread.seed, first.id, spread.sigma));
-    if (rules.wall.hertz)
-      touch.pair.longest_step = rayleigh_part * rules.wall.rayleigh * std::sqrt(first.mass / first.radius);
-    touch.reach = first.radius;
-    touch.next_wall = cluster.bodies[a].first_wall;
-    cluster.bodies[a].first_wall = static_cast<std::int32_t>(cluster.touches.size()) - 1;
-  }
-  return touch;
-}
-
-void set_dashpots(const Rules& rules, Touch& touch) {
-  const SurfaceLaw& law = touch.b >= 0 ? rules.carrier : rules.wall;
-  const double k = touch.memory.stiffness, mass = touch.pair.mass;
-  touch.eta = 2.0 * law.zeta * std::sqrt(mass * k);
-  touch.eta_pull = 2.0 * law.zeta * std::sqrt(mass * touch.pair.pull_stiffness);
-  if (!law.hertz) touch.memory.slip_stiffness = law.tangential_ratio * k;
-  touch.eta_slip = slip_dashpot(law, rules.rotation, mass, touch.memory.slip_stiffness);
-}
-
-void match_walls(std::int32_t b, double time, const Rules& rules, Cluster& cluster) {
-  constexpr double same_side = 0.8;  // cosine: the normal of one place turns by less between two looks
-  const std::vector<WallPlane>& planes = cluster.walls[b].planes;
-  const std::int32_t old = cluster.bodies[b].first_wall;
-  if (planes.empty() && old < 0) return;
-  std::uint64_t taken = 0;  // bits in the order of the chain
-  for (const WallPlane& plane : planes) {
-    std::int32_t best = -1;
-    int best_bit = 0, bit = 0;
-    double nearest = same_side;
-    for (std::int32_t i = old; i >= 0; i = cluster.touches[i].next_wall, ++bit) {
-      const Touch& touch = cluster.touches[i];
-      if (touch.lost || bit > 63 || (taken >> bit & 1)) continue;
-      const bool live = touch.memory.phase != ContactPhase::free;
-      const double cosine = plane.normal.dot(live ? touch.memory.normal : touch.plane.normal);
-      if (cosine > nearest) nearest = cosine, best = i, best_bit = bit;
-    }
-    if (best >= 0) {
-      taken |= std::uint64_t{1} << best_bit;
-      cluster.touches[best].plane = plane;
-      cluster.touches[best].idle_until = 0.0;
-    } else {
-      add_touch(b, -1, rules, cluster).plane = plane;
-    }
-  }
-  int bit = 0;
-  for (std::int32_t i = old; i >= 0; i = cluster.touches[i].next_wall, ++bit) {
-    Touch& touch = cluster.touches[i];
-    if (touch.lost || (bit <= 63 && (taken >> bit & 1))) continue;
-    if (touch.memory.phase != ContactPhase::free) end_contact(time, cluster, touch);
-    touch.lost = true;
-  }
-}
-
 void integrate(double time, double duration, const Rules& rules, const Walls& walls, Cluster& cluster) {
-  bool live = false;
-  const std::int64_t moving =
-      std::count_if(cluster.bodies.begin(), cluster.bodies.end(), [](const Body& body) { return !body.fixed; });
-  double elapsed = 0.0;
-  double step = evaluate_all(0.0, time, duration, rules, cluster, live);
-  std::int64_t taken = 0;
-  while (elapsed < duration && !cluster.disturbed) {
-    if (++taken > most_steps)
-      throw std::runtime_error("dem: more than " + std::to_string(most_steps) + " sub-steps in one step of " +
-                               std::to_string(duration) + " s, with carrier " + std::to_string(cluster.bodies[0].id) +
-                               "; give shorter steps or a larger max_overlap");
-    const double remaining = duration - elapsed;
-    double h = time_to_look(std::min(step, remaining), cluster);
-    if (!live) {
-      h = time_of_flight(time_to_look(remaining, cluster), cluster);
-      fly(h, cluster);
-    } else {
-      h = remaining / std::ceil(remaining / h * (1.0 - 1e-12));
-      kick_and_drift(h, cluster);
-    }
-    elapsed = h == remaining ? duration : elapsed + h;
-    look_again(time + elapsed, duration - elapsed, rules, walls, cluster);
-    const bool flew = !live;
-    step = evaluate_all(flew ? 0.0 : h, time + elapsed, std::max(duration - elapsed, h), rules, cluster, live);
-    if (!flew) closing_kick(h, cluster);
-    note_deviations(elapsed, cluster);
-    cluster.body_steps += moving;
-  }
-  for (const Touch& touch : cluster.touches)
-    if (touch.memory.phase != ContactPhase::free) note_overlap(touch, cluster);
+  // Waiting for its own parts, a thread shall not begin another cluster.
+  tbb::this_task_arena::isolate([&] { Motion(time, duration, rules, walls, cluster).run(); });
 }
 
 }  // namespace puffin::dem

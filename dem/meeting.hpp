@@ -7,25 +7,29 @@
 
 namespace puffin::dem {
 
-/// Positions and speeds of a touch.
+/// Three numbers of a Body as a vector.
+inline auto vec(double (&numbers)[3]) { return Eigen::Map<Eigen::Vector3d>(numbers); }
+inline auto vec(const double (&numbers)[3]) { return Eigen::Map<const Eigen::Vector3d>(numbers); }
+
+/// Positions of a touch.
 struct Meeting {
   Eigen::Vector3d normal;           // towards a
   double overlap = 0.0;             // > 0 pressed [m]
   double arm_a = 0.0, arm_b = 0.0;  // from the centres to the place of contact [m]
 };
 
-inline Meeting meet(const Touch& touch, const Body& a, const Body* b) {
+inline Meeting meet(const Touch& touch, const PairConstants& pair, const Body& a, const Body* b) {
   Meeting m;
   if (b != nullptr) {
-    const Eigen::Vector3d apart = a.x - b->x;
+    const Eigen::Vector3d apart = vec(a.x) - vec(b->x);
     const double distance = apart.norm();
     m.normal = distance > 0.0 ? Eigen::Vector3d(apart / distance) : touch.memory.normal;
-    m.overlap = touch.reach - distance;
-    m.arm_a = distance * a.radius / touch.reach;  // the arms add up to the distance: angular momentum is kept exactly
+    m.overlap = pair.reach - distance;
+    m.arm_a = pair.share * distance;  // the arms add up to the distance: angular momentum is kept exactly
     m.arm_b = distance - m.arm_a;
   } else {
     m.normal = touch.plane.normal;
-    m.arm_a = m.normal.dot(a.x - touch.plane.point);
+    m.arm_a = m.normal.dot(vec(a.x) - touch.plane.point);
     m.overlap = a.radius - m.arm_a;
   }
   return m;
@@ -33,36 +37,33 @@ inline Meeting meet(const Touch& touch, const Body& a, const Body* b) {
 
 /// Velocity of a's surface relative to b's at the place of contact, of the half step, or at its predicted end.
 inline Eigen::Vector3d surface_velocity(const Meeting& m, const Body& a, const Body* b, bool end) {
-  Eigen::Vector3d v = end ? Eigen::Vector3d(a.v + a.kick) : a.v;
-  Eigen::Vector3d turn = m.arm_a * (end ? Eigen::Vector3d(a.w + a.twist) : a.w);
+  Eigen::Vector3d v = vec(a.v), turn = m.arm_a * vec(a.w);
+  if (end) v += vec(a.kick), turn += m.arm_a * vec(a.twist);
   if (b != nullptr) {
-    v -= end ? Eigen::Vector3d(b->v + b->kick) : b->v;
-    turn += m.arm_b * (end ? Eigen::Vector3d(b->w + b->twist) : b->w);
+    v -= vec(b->v), turn += m.arm_b * vec(b->w);
+    if (end) v -= vec(b->kick), turn += m.arm_b * vec(b->twist);
   }
   return v - turn.cross(m.normal);
 }
 
-inline Eigen::Vector3d centre_velocity(const Body& a, const Body* b, bool end) {
-  Eigen::Vector3d v = end ? Eigen::Vector3d(a.v + a.kick) : a.v;
-  if (b != nullptr) v -= end ? Eigen::Vector3d(b->v + b->kick) : b->v;
+/// Velocity of a's centre against b's, predicted for the end of the sub-step.
+inline Eigen::Vector3d centre_velocity(const Body& a, const Body* b) {
+  Eigen::Vector3d v = vec(a.v) + vec(a.kick);
+  if (b != nullptr) v -= vec(b->v) + vec(b->kick);
   return v;
 }
 
-inline Eigen::Vector3d acceleration(const Body& a, const Body* b) {
-  return b != nullptr ? Eigen::Vector3d(a.acceleration - b->acceleration) : a.acceleration;
-}
-
 inline void push(const Eigen::Vector3d& impulse, Body& a, Body* b) {
-  a.v += impulse * a.inverse_mass;
-  if (b != nullptr) b->v -= impulse * b->inverse_mass;
+  vec(a.v) += impulse * a.inverse_mass;
+  if (b != nullptr) vec(b->v) -= impulse * b->inverse_mass;
 }
 
 /// An impulse at the place of contact, with its moment.
 inline void push_at_contact(const Eigen::Vector3d& impulse, const Meeting& m, Body& a, Body* b) {
   push(impulse, a, b);
   const Eigen::Vector3d moment = m.normal.cross(impulse);
-  a.w -= moment * (m.arm_a * a.inverse_inertia);
-  if (b != nullptr) b->w -= moment * (m.arm_b * b->inverse_inertia);
+  vec(a.w) -= moment * (m.arm_a * a.inverse_inertia);
+  if (b != nullptr) vec(b->w) -= moment * (m.arm_b * b->inverse_inertia);
 }
 
 }  // namespace puffin::dem

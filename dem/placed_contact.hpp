@@ -10,8 +10,8 @@ namespace puffin::dem {
 /// Two surfaces that touch, at rest against each other, pulled apart by less than their pull-off force: placed so, for
 /// nothing that has moved comes to rest to the last bit.
 /// in: speed of parting [m/s], acceleration apart [m/s^2].
-inline bool hangs_at_rest(double parting, double pulled, const Touch& touch) {
-  return parting == 0.0 && pulled > 0.0 && pulled * touch.pair.mass < touch.pair.largest_pull();
+inline bool hangs_at_rest(double parting, double pulled, const PairLaw& pair) {
+  return parting == 0.0 && pulled > 0.0 && pulled * pair.mass < pair.largest_pull();
 }
 
 /// Overlap [m] at which a contact pulls back with `force` [N], 0 < force < pull-off. A bond: its stretched spring. DMT:
@@ -28,11 +28,11 @@ inline double hanging_overlap(double force, const SurfaceLaw& law, const PairLaw
 
 /// Makes a contact that has just begun carry its load from the start: nothing swings. Of a bond, takes back the fall
 /// into the well, sqrt(2 U/m*).
-inline void hang(const Meeting& m, double pulled, const SurfaceLaw& law, Touch& touch, Body& a, Body* b) {
-  Contact& c = touch.memory;
-  if (touch.pair.well > 0.0) c.phase = ContactPhase::bonded;
-  c.offset = m.overlap - hanging_overlap(pulled * touch.pair.mass, law, touch.pair);
-  push(m.normal * std::sqrt(2.0 * touch.pair.well * touch.pair.mass), a, b);
+inline void hang(const Meeting& m, double pulled, const SurfaceLaw& law, const PairLaw& pair, Contact& contact, Body& a,
+                 Body* b) {
+  if (pair.well > 0.0) contact.phase = ContactPhase::bonded;
+  contact.offset = m.overlap - hanging_overlap(pulled * pair.mass, law, pair);
+  push(m.normal * std::sqrt(2.0 * pair.well * pair.mass), a, b);
 }
 
 }  // namespace puffin::dem

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "dem/meeting.hpp"
+
 namespace puffin::dem {
 namespace {
 
@@ -53,28 +55,31 @@ void settle(const Rules& rules, const Cluster& cluster, State& state) {
   }
   for (std::size_t b = 0; b < cluster.bodies.size(); ++b) {
     const Body& body = cluster.bodies[b];
-    RestMemory& rest = state.rest[body.carrier];
-    if (body.sleeper) {
-      rest.contact_change = body.imbalance + body.force - (body.steady + body.drag_force - rest.load);
+    const BodyRecord& record = cluster.records[b];
+    RestMemory& rest = state.rest[record.carrier];
+    if (record.sleeper) {
+      rest.contact_change = record.imbalance + vec(body.force) - (record.steady + record.drag_force - rest.load);
       continue;
     }
-    if (body.fixed) continue;
+    if (record.fixed) continue;
     Grip grip = grips[b];
     const double rolling = std::max(rules.carrier.rolling, rules.wall.rolling);
     if (rules.rotation && grip.contacts < 3) grip.hold *= std::clamp(rolling, free_rolling, 1.0);
-    const Vector3d net = body.force + body.drag_force + body.steady;
+    const Vector3d net = vec(body.force) + record.drag_force + record.steady;
     const double energy = 2.0 * still_way * body.radius * grip.hold * body.inverse_mass;  // of stopping, per mass
-    const bool still = grip.contacts > 0 && grip.hold > 0.0 && grip.use <= rules.integration.sleep_use &&
-                       net.norm() <= still_force * grip.hold &&
-                       body.v.squaredNorm() + 0.4 * body.radius * body.radius * body.w.squaredNorm() <= energy;
+    const bool still =
+        grip.contacts > 0 && grip.hold > 0.0 && grip.use <= rules.integration.sleep_use &&
+        net.norm() <= still_force * grip.hold &&
+        vec(body.v).squaredNorm() + 0.4 * body.radius * body.radius * vec(body.w).squaredNorm() <= energy;
     rest.steps_at_rest = still ? rest.steps_at_rest + 1 : 0;
     if (rest.steps_at_rest < rules.integration.sleep_steps) continue;
-    state.carriers.rest[body.carrier] = Rest::asleep;
-    state.carriers.velocity[body.carrier] = state.carriers.spin[body.carrier] = Vector3d::Zero();
-    rest.load = body.load.drag * body.load.air_velocity + body.steady;
-    rest.contact_force = body.force;
+    const std::int32_t i = record.carrier;
+    state.carriers.rest[i] = Rest::asleep;
+    state.carriers.velocity[i] = state.carriers.spin[i] = Vector3d::Zero();
+    rest.load = record.drag * record.air_velocity + record.steady;
+    rest.contact_force = vec(body.force);
     rest.contact_change = Vector3d::Zero();
-    rest.torque = body.load.torque;
+    rest.torque = record.torque;
     rest.hold = grip.hold;
   }
 }

@@ -32,8 +32,6 @@ struct Statistics {
   std::int64_t repeated = 0;        // clusters integrated again because the guess was too small
   std::int64_t rebuilds = 0;        // of the neighbour list
   std::int64_t wakes = 0;
-  std::int64_t looks = 0;        // evaluations of contacts, and of pairs that may touch
-  std::int64_t looks_saved = 0;  // that the sub-step of the fastest contact of each cluster would have asked for
   double largest_overlap = 0.0;  // part of the (smaller) diameter
 };
 

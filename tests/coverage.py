@@ -3,7 +3,7 @@
 
 usage: coverage.py ROOT BUILD_DIR [--seconds 600] [--jobs 2] [--table FILE.csv] [--tests FILE.csv]
 
-BUILD_DIR is that of the preset fuzz (clang with PUFFIN_COVERAGE, sanitizers on). Runs every test program that is built there,
+BUILD_DIR is that of the preset coverage or fuzz (clang with PUFFIN_COVERAGE, sanitizers on). Runs every test program that is built there,
 each for at most that time, merges what they counted, and prints for each layer lines, lines reached and share, then the files
 below 80 %. Exits 1 if a program fails or lbm, dem, micromodels or coupling stays below 90 %.
 """

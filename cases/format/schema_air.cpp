@@ -182,7 +182,7 @@ void describe(Fields& io, Numerics& n, AirModel air) {
     io.problem("wall_model", "the wall model acts on cut links: take wall = \"bouzidi\" or \"halfway\" with it");
   io.choice("precision", n.precision, otherwise(Precision::float32));
   std::int64_t interval = n.coupling_interval;
-  io.integer("coupling_interval", interval, Range::positive, otherwise<std::int64_t>(4));
+  io.integer("coupling_interval", interval, Range::positive, otherwise<std::int64_t>(5));
   if (interval > 64) io.problem("coupling_interval", "at most 64 air steps between two exchanges");
   n.coupling_interval = static_cast<int>(interval);
   io.number("scalar_cfl", n.scalar_cfl, unit::number, Range::positive, otherwise(0.8));

@@ -43,10 +43,9 @@ void fields(auto& archive, Is<dem::Neighbours> auto& neighbours) {
 }
 
 void fields(auto& archive, Is<dem::Statistics> auto& counts) {
-  auto& [steps, free_flights, contact_steps, sleeping_steps, clusters, repeated, rebuilds, wakes, looks, looks_saved,
-         largest_overlap] = counts;
-  archive(steps, free_flights, contact_steps, sleeping_steps, clusters, repeated, rebuilds, wakes, looks, looks_saved,
-          largest_overlap);
+  auto& [steps, free_flights, contact_steps, sleeping_steps, clusters, repeated, rebuilds, wakes, largest_overlap] =
+      counts;
+  archive(steps, free_flights, contact_steps, sleeping_steps, clusters, repeated, rebuilds, wakes, largest_overlap);
 }
 
 void fields(auto& archive, Is<dem::State> auto& state) {

@@ -39,6 +39,11 @@ void fields(auto& archive, Is<Extremes> auto& extremes) {
   archive(max_speed_lu, min_dt, max_dt, min_tau);
 }
 
+void fields(auto& archive, Is<lbm::MassBook> auto& book) {
+  auto& [cells, booked, missing, returned, corrections] = book;
+  archive(cells, booked, missing, returned, corrections);
+}
+
 void fields(auto& archive, Is<Fines> auto& fines) {
   auto& [initial, left, emitted, stuck, placed, loaded, to_air, to_wall, regained, picked_up, without_air, slip] =
       fines;
@@ -65,11 +70,11 @@ namespace {
 
 /// What is neither air nor carriers nor fines.
 void time_fields(auto& archive, Is<State> auto& state) {
-  auto& [time, scale, step_factor, air, drive, inlet_way, cells, touched, carriers, fines, collisions, first_motion,
-         departures, events, stencils, stencils_at, spread_on, samples, gradients, spreader, impulse_on_air, momentum,
-         loads, pores, pressure_forces, release, scalars, budget, fluxes, routes, steps_since_scalars,
+  auto& [time, scale, step_factor, air, air_mass, drive, inlet_way, cells, touched, carriers, fines, collisions,
+         first_motion, departures, events, stencils, stencils_at, forced, samples, gradients, spreader, impulse_on_air,
+         momentum, loads, pores, pressure_forces, release, scalars, budget, fluxes, routes, steps_since_scalars,
          seconds_since_scalars, steps_per_scalar_update, airborne, fines_drift, effort, extremes] = state;
-  archive(time, scale.dt, step_factor, inlet_way, collisions, departures, pores.share, stencils_at.position,
+  archive(time, scale.dt, step_factor, air_mass, inlet_way, collisions, departures, pores.share, stencils_at.position,
           stencils_at.radius, impulse_on_air, momentum, steps_since_scalars, seconds_since_scalars,
           steps_per_scalar_update, airborne, fines_drift, effort, extremes);
 }
@@ -141,8 +146,8 @@ struct Sizes {
 
 /// The stencils on which the reaction of the last interval will be laid, and a lattice without forces as before it.
 void rebuild_stencils(State& s) {
-  Spreader::clear(s.spread_on, s.air->force);
-  s.spread_on = Stencils();
+  Spreader::clear(s.forced, s.air->force);
+  s.forced.clear();
   std::vector<int> all(s.stencils_at.position.size());
   for (std::size_t p = 0; p < all.size(); ++p) all[p] = static_cast<int>(p);
   s.stencils.build(s.cells, s.stencils_at.position, s.stencils_at.radius, all);

@@ -10,7 +10,7 @@ namespace {
 constexpr int lines = 4096;
 constexpr double plastic = 1.3247179572447460;  // x^3 = x + 1
 
-struct Crossing {
+struct WallCrossing {
   double at = 0.0;  // share of the segment
   int step = 0;     // of the winding number
 };
@@ -26,7 +26,7 @@ class Local {
   }
 
   // Moeller & Trumbore, J. Graph. Tools 2(1), 21 (1997).
-  void cross(const Vec3& from, const Vec3& along, std::vector<Crossing>& out) const {
+  void cross(const Vec3& from, const Vec3& along, std::vector<WallCrossing>& out) const {
     out.clear();
     for (const auto& [a, b, c] : triangles_) {
       const Vec3 u = b - a, v = c - a, s = from - a, pv = along.cross(v), q = s.cross(u);
@@ -60,18 +60,19 @@ double union_fraction(const TriangleTree& tree, const Vec3& centre, double dx, d
 
   const Vec3 low = centre - Vec3::Constant(0.5 * dx);
   const Local local(tree, low, low + Vec3::Constant(dx));
-  std::vector<Crossing> crossings;
+  std::vector<WallCrossing> crossings;
   double inside = 0.0;
   for (int n = 0; n < lines; ++n) {
     const double y = std::fmod(0.5 + (n + 1) / plastic, 1.0), z = std::fmod(0.5 + (n + 1) / (plastic * plastic), 1.0);
     const Vec3 from = low + dx * Vec3(0.0, y, z);
     int winding = middle;
     local.cross(centre, from - centre, crossings);
-    for (const Crossing& c : crossings) winding += c.step;
+    for (const WallCrossing& c : crossings) winding += c.step;
     local.cross(from, Vec3(dx, 0.0, 0.0), crossings);
-    std::sort(crossings.begin(), crossings.end(), [](const Crossing& a, const Crossing& b) { return a.at < b.at; });
+    std::sort(crossings.begin(), crossings.end(),
+              [](const WallCrossing& a, const WallCrossing& b) { return a.at < b.at; });
     double last = 0.0;
-    for (const Crossing& c : crossings) {
+    for (const WallCrossing& c : crossings) {
       if (winding != 0) inside += c.at - last;
       last = c.at;
       winding += c.step;

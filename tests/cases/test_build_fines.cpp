@@ -50,6 +50,19 @@ double sum_of_parts(const coupling::Ledger& l) {
   return l.on_carriers + l.on_emitted_carriers + l.on_walls + l.in_air + l.emitted;
 }
 
+// The map of the walls adds up to what walls took, to rounding of 250 summands of the amount.
+TEST(WallMap, KnowsFinesThatNoCarrierBrought) {
+  auto s = scene(uniform, around, std::string("wall = \"absorb\"\n") + cloud);
+  for (int n = 0; n < 20; ++n) coupling::advance(s->models, 1.0, s->state);
+  const auto map = coupling::wall_map(s->state.fines, s->state.budget, 0, s->models.triangle_of_slot);
+  ASSERT_EQ(map.size(), s->surface.mesh.triangles.size());
+  double stuck = 0.0, absorbed = 0.0;
+  for (const double m : map) stuck += m;
+  for (int m = 0; m < coupling::mechanisms; ++m) absorbed += lbm::absorbed(s->state.budget, m);
+  EXPECT_GT(absorbed, 1.0);
+  EXPECT_NEAR(stuck, absorbed, 1e-10);
+}
+
 // Half of this cloud lies below the floor: what is above is scaled to the amount. Rounding of 250 summands.
 TEST(Clouds, AreCutAtWallsAndHoldTheirAmount) {
   const auto s = scene(uniform, around, cloud);

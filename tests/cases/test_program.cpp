@@ -69,6 +69,14 @@ TEST_F(Program, ACaseWithThreeMistakesEndsWith3AndNamesThem) {
     EXPECT_NE(o.out.find(part), std::string::npos) << part << o.out;
 }
 
+TEST_F(Program, CellsTooCoarseForTheJetOfAnInletAreToldWithARemedy) {
+  // 4 area / perimeter of 7 mm x 1.5 mm is 2.47 mm: 9.9 cells of 0.25 mm, 6.6 of 0.375 mm; an eighth is 0.309 mm.
+  const std::string coarse = puffin("check " + l_base + " --preset quick --json").out;
+  EXPECT_NE(coarse.find("has 6.6 cells"), std::string::npos) << coarse;
+  EXPECT_NE(coarse.find("take a dx of at most 0.309 mm"), std::string::npos) << coarse;
+  EXPECT_EQ(puffin("check " + l_base + " --json").out.find("for a jet of"), std::string::npos);
+}
+
 TEST_F(Program, AMissingCaseFileEndsWith7) { EXPECT_EQ(puffin("check no/such/case.toml").code, 7); }
 
 TEST_F(Program, ASurfaceWithAHoleEndsWith4) {

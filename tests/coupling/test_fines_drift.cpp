@@ -94,6 +94,20 @@ TEST(FinesDrift, approaches_the_pressure_gradient_with_its_delay) {
   EXPECT_NEAR(v[1][s], 0.0, 1e-12);
 }
 
+TEST(FinesDrift, beside_a_wall_is_that_of_the_cells_inside) {
+  // The layer of cells at the wall is 0.1 % too dense; the air is at rest, so nothing drifts there or into the wall.
+  const auto rows = full_box({12, 6, 6}, 1e-4);
+  lbm::FaceFluxes f = still_air(rows);
+  for (int j = 0; j < 6; ++j)
+    for (int k = 0; k < 6; ++k) f.density[rows.active_slot(0, j, k)] = 1.001;
+  FinesDrift drift;
+  drift.response_time = 2e-5;
+  DriftVelocity v;
+  update_drift(rows, f, Scale{1e-4, 1e-6, 1.2}, drift, 1e-3, v);
+  EXPECT_EQ(v[0][rows.active_slot(0, 3, 3)], 0.0);
+  EXPECT_LT(v[0][rows.active_slot(1, 3, 3)], 0.0);  // the cell behind feels the step
+}
+
 TEST(FinesDrift, in_a_frozen_vortex_is_the_centrifugal_one) {
   // u = w x r: -(u . grad) u = w^2 r outwards; central differences are exact for a linear field.
   const auto rows = full_box({10, 10, 4}, 1e-4);

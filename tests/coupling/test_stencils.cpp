@@ -4,6 +4,8 @@
 #include <tbb/global_control.h>
 
 #include <cmath>
+#include <map>
+#include <random>
 #include <set>
 
 #include "coupling/stencil_loop.hpp"
@@ -74,6 +76,51 @@ TEST(Stencils, AirBehindAThinWallTakesNoPart) {
   const auto s = stencils_of(cells, places(rows, 50, {8.2, 2, 2}, {9.4, 6, 6}), 4e-4);
   for (const Stencil& stencil : s.stencils())
     for (const StencilEntry& e : s.entries(stencil)) EXPECT_LT(rows.cell(e.slot)[0], 10);
+}
+
+TEST(Stencils, OnlyCellsThatHangTogetherWithTheHeaviestTakePart) {
+  // Random porous blocks against a search cell by cell, for stencils of three cells a direction.
+  std::mt19937 random(11);
+  for (int round = 0; round < 300; ++round) {
+    std::vector<char> solid(5 * 5 * 5);
+    for (char& s : solid) s = random() % 3 == 0;
+    const auto rows = box({5, 5, 5}, 2e-4, [&](int i, int j, int k) { return solid[i + 5 * (j + 5 * k)] == 0; });
+    const CellIndex cells(rows);
+    const auto position = places(rows, 1, {1.6, 1.6, 1.6}, {2.4, 2.4, 2.4}, 100 + round);
+    const auto s = stencils_of(cells, position, 1e-4);
+    const Eigen::Vector3d at = (position[0] - cells.origin()) / cells.dx();
+    std::map<std::array<int, 3>, double> weight;  // of the active cells in reach
+    std::array<int, 3> heaviest{};
+    double most = -1.0;
+    for (int k = 1; k < 4; ++k)
+      for (int j = 1; j < 4; ++j)
+        for (int i = 1; i < 4; ++i) {
+          if (cells.active_slot(i, j, k) < 0) continue;
+          const double w = roma(i - at.x()) * roma(j - at.y()) * roma(k - at.z());
+          weight[{i, j, k}] = w;
+          if (w > most) most = w, heaviest = {i, j, k};
+        }
+    std::set<std::array<int, 3>> reached;
+    std::vector<std::array<int, 3>> todo;
+    if (most > 0.0) todo.push_back(heaviest);
+    while (!todo.empty()) {
+      const auto c = todo.back();
+      todo.pop_back();
+      if (!weight.count(c) || !reached.insert(c).second) continue;
+      for (int d = 0; d < 3; ++d)
+        for (int step = -1; step <= 1; step += 2) {
+          auto next = c;
+          next[d] += step;
+          todo.push_back(next);
+        }
+    }
+    std::set<std::int32_t> expected, found;
+    for (const auto& c : reached)
+      if (weight[c] > 0.0) expected.insert(cells.active_slot(c[0], c[1], c[2]));
+    for (const Stencil& stencil : s.stencils())
+      for (const StencilEntry& e : s.entries(stencil)) found.insert(e.slot);
+    EXPECT_EQ(found, expected) << "round " << round;
+  }
 }
 
 TEST(Stencils, CarriersWithoutAirInReachAreReported) {
@@ -150,6 +197,42 @@ TEST(Stencils, DoNotDependOnWhatWasBuiltBefore) {
   fresh.build(cells, second, radius, all(300));
   ASSERT_EQ(used.tiles(), fresh.tiles());
   for (std::size_t n = 0; n < 300; ++n) EXPECT_EQ(used.stencils()[n].carrier, fresh.stencils()[n].carrier);
+}
+
+TEST(Stencils, WhatHasNotMovedIsKeptAndStillRight) {
+  // Two sizes, a wall, and each time other carriers that move, change their cell or are not wanted: as if built anew.
+  const auto rows = box({30, 20, 20}, 2e-4, [](int i, int j, int) { return i < 12 || j > 6; });
+  const CellIndex cells(rows);
+  auto position = places(rows, 400, {1, 8, 1}, {28, 18, 18});
+  std::vector<double> radius(400, 0.5e-4);
+  for (std::size_t p = 0; p < 400; p += 3) radius[p] = 1.6e-4;
+  Stencils used;
+  for (int round = 0; round < 6; ++round) {
+    std::vector<int> wanted;
+    for (int p = 0; p < 400; ++p)
+      if ((p + round) % 7 != 0 || round < 2) wanted.push_back(p);
+    used.build(cells, position, radius, wanted);
+    Stencils fresh;
+    fresh.build(cells, position, radius, wanted);
+    ASSERT_EQ(used.cells(), fresh.cells());
+    ASSERT_EQ(used.stencils().size(), fresh.stencils().size());
+    std::set<std::int32_t> seen;
+    for (std::size_t n = 0; n < wanted.size(); ++n) {
+      const Stencil &a = used.stencils()[n], &b = fresh.stencils()[n];
+      ASSERT_EQ(a.carrier, b.carrier);
+      ASSERT_EQ(a.count, b.count);
+      EXPECT_EQ(a.squares, b.squares);
+      EXPECT_EQ(a.offset, b.offset);
+      for (int e = 0; e < a.count; ++e) {
+        ASSERT_EQ(used.entries(a)[e].slot, fresh.entries(b)[e].slot);
+        ASSERT_EQ(used.entries(a)[e].weight, fresh.entries(b)[e].weight);
+        seen.insert(used.entries(a)[e].slot);
+      }
+    }
+    EXPECT_EQ(used.cells(), std::vector<std::int32_t>(seen.begin(), seen.end()));
+    for (std::size_t p = round; p < 400; p += 5) position[p].x() += (p % 2 == 0 ? 1e-6 : -1.7e-4);
+    radius[10 * round] = 1.6e-4;
+  }
 }
 
 TEST(Stencils, AreTheSameForOneAndTwoThreadsAndMarkTheirRuns) {

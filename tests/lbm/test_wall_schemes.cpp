@@ -29,7 +29,7 @@ AirOptions laminar(WallScheme wall, double tau = 0.8) {
 
 /// A plane channel of `height` cells along x, its grid shifted by `offset`; a body force drives it to a peak of 0.05.
 struct Channel {
-  Channel(WallScheme wall, double height, double offset, double tau) : tau(tau) {
+  Channel(WallScheme wall, double height, double offset, double time) : tau(time) {
     scene = make_box(Vec3(4, height, 4), 1.0,
                      {periodic(), periodic(), test::wall(), test::wall(), periodic(), periodic()}, Vec3(0, offset, 0));
     air = make_air(scene, laminar(wall, tau));

@@ -11,6 +11,7 @@ Runs soak.toml on one thread for MINUTES (60) of wall clock and looks at the pro
 """
 
 import csv
+import json
 import subprocess
 import sys
 import time
@@ -93,6 +94,9 @@ def main(program: str, out: str, minutes: str = "60") -> int:
                         f"{mass[-1][0]:.3g} s"),
     ]
     text = "".join(f"{'ok  ' if good else 'FAIL'}  {line}\n" for good, line in claims)
+    air = json.loads((run / "summary.json").read_text())["air_mass"]
+    text += (f"rounding took {air['lost']:.3g} of the air's mass; {air['returned']:.3g} were given back in "
+             f"{air['corrections']} corrections\n")
     text += f"{rows[-1][0]} minutes, {rows[-1][2]:.0f} CPU-s, {rows[-1][3]:.4g} s simulated\n"
     Path(f"{out}.txt").write_text(text)
     print(text, end="")

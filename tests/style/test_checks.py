@@ -161,7 +161,7 @@ class Tidy(SmallTree):
         shutil.copy(CONFIGURATION / ".clang-tidy", self.root)
 
     def compile(self, *paths: str) -> None:
-        commands = [{"directory": str(self.root), "file": path, "command": f"c++ -I{self.root} -c {path}"}
+        commands = [{"directory": str(self.root), "file": path, "command": f"c++ -Wall -I{self.root} -c {path}"}
                     for path in paths]
         self.write("build/compile_commands.json", json.dumps(commands))
 
@@ -185,6 +185,20 @@ class Tidy(SmallTree):
         self.compile("lbm/a.cpp", "tests/lbm/a.cpp")
         self.assertEqual(self.faults("sources"), [])
         self.assert_one(self.faults("tests"), "tests/lbm/a.cpp")
+
+    def test_files_looked_at_together_are_reported_alone(self):
+        helper = "namespace {\nint helper(int x) { return x + 1; }\n}\n"  # the same name twice is no fault
+        self.write("lbm/a.cpp", helper + "int a() { return helper(1); }\n")
+        self.write("lbm/b.cpp", helper + self.BAD.replace("inline int f", "int b") + "int c() { return helper(2); }\n")
+        self.write("lbm/c.cpp", "int d() { return 1; }\n")
+        self.compile("lbm/a.cpp", "lbm/b.cpp", "lbm/c.cpp")
+        self.assert_one(self.faults(), "lbm/b.cpp", "bugprone-branch-clone")
+
+    def test_a_helper_that_nobody_calls_is_found_among_others(self):
+        self.write("lbm/a.cpp", "namespace {\nint helper(int x) { return x + 1; }\n}\n")
+        self.write("lbm/b.cpp", "int d() { return 1; }\n")
+        self.compile("lbm/a.cpp", "lbm/b.cpp")
+        self.assert_one(self.faults(), "lbm/a.cpp", "unused-function")
 
     def test_build_without_our_files_is_a_fault(self):
         self.write("lbm/a.cpp", "int x = 1;\n")

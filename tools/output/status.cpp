@@ -11,6 +11,7 @@ void fields(Status& s, const Field& field) {
   field("simulated_time", s.simulated_time), field("end_time", s.end_time), field("steps", s.steps);
   field("mlups", s.mlups), field("wall_clock", s.wall_clock), field("eta", s.eta);
   field("ledger_error", s.ledger_error);
+  if (s.air_lost || !field.writes) field("air_lost", s.air_lost);
 }
 
 }  // namespace

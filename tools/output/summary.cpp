@@ -42,6 +42,12 @@ void fields(CollisionSummary& c, const Field& field) {
 }
 
 template <class Field>
+void fields(AirMass& m, const Field& field) {
+  field("lost", m.lost), field("returned", m.returned), field("missing", m.missing);
+  field("corrections", m.corrections);
+}
+
+template <class Field>
 void fields(SkippedWork& s, const Field& field) {
   field("name", s.name), field("times", s.times), field("seconds_saved", s.seconds_saved);
 }
@@ -106,6 +112,7 @@ Summary summary_of(const Json& json) {
     const std::vector<double> force = numbers(item);
     if (force.size() == 3) s.forces.push_back({patch, force[0], force[1], force[2]});
   }
+  if (json.contains("air_mass")) s.air_mass = read<AirMass>(json["air_mass"]);
   if (json.contains("carriers")) s.carriers = read<CarrierSummary>(json["carriers"]);
   for (const auto& [name, item] : part(json, "fines").items()) {
     s.fines.push_back(read<FinesSummary>(item));
@@ -135,6 +142,7 @@ Json to_json(const Summary& s) {
   }
   json["forces"] = Json::object();
   for (const auto& f : s.forces) json["forces"][f.patch] = {number(f.fx), number(f.fy), number(f.fz)};
+  if (s.air_mass) json["air_mass"] = written(*s.air_mass);
   if (s.carriers) json["carriers"] = written(*s.carriers);
   json["fines"] = written_fines(s.fines);
   if (s.collisions) json["collisions"] = written(*s.collisions);

@@ -52,6 +52,12 @@ struct CollisionSummary {
   std::optional<double> largest_overlap;                         // of any contact, part of the (smaller) diameter
 };
 
+/// Of an air that no opening holds. Parts of its mass that rounding took, that were given back, that are missing now.
+struct AirMass {
+  double lost = 0.0, returned = 0.0, missing = 0.0;
+  std::int64_t corrections = 0;
+};
+
 struct SkippedWork {
   std::string name;
   std::int64_t times = 0;
@@ -101,6 +107,7 @@ struct Summary {
   std::vector<SkippedWork> skipped;
   std::optional<PressureSummary> pressure;
   std::vector<PatchForce> forces;
+  std::optional<AirMass> air_mass;  // absent: an opening holds the density
   std::optional<CarrierSummary> carriers;
   std::vector<FinesSummary> fines;  // one a scalar
   std::optional<CollisionSummary> collisions;
@@ -145,6 +152,7 @@ struct Status {
   double wall_clock = 0.0;             // [s]
   std::optional<double> eta;           // [s]
   std::optional<double> ledger_error;  // of the fines loaded
+  std::optional<double> air_lost;      // of a closed air: what rounding took of its mass, given back or missing
   std::vector<std::string> warnings;
 };
 

@@ -5,9 +5,6 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <chrono>
-#include <fstream>
-#include <limits>
-#include <string>
 #include <vector>
 
 #include "cases/build.hpp"
@@ -84,16 +81,6 @@ double memory_bandwidth() {
     best = std::max(best, 3.0 * sizeof(double) * n / seconds_since(begin));
   }
   return best;
-}
-
-double available_memory() {
-  std::ifstream in("/proc/meminfo");
-  for (std::string word; in >> word;)
-    if (word == "MemAvailable:") {
-      double kilobytes = 0.0;
-      if (in >> kilobytes) return 1024.0 * kilobytes;
-    }
-  return std::numeric_limits<double>::infinity();
 }
 
 }  // namespace puffin::tools

@@ -16,7 +16,4 @@ Calibration calibrate(const cases::Numerics& n);
 /// Bytes a second of a triad over arrays beyond the caches: the bound of the lattice.
 double memory_bandwidth();
 
-/// [byte] that a new program could take, as Linux says; infinity elsewhere.
-double available_memory();
-
 }  // namespace puffin::tools

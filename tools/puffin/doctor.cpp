@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <new>
 #include <optional>
 #include <thread>
 
@@ -17,6 +18,7 @@
 #include "tools/output/render.hpp"
 #include "tools/output/stats_file.hpp"
 #include "tools/output/vtk_series.hpp"
+#include "tools/puffin/available_memory.hpp"
 #include "tools/puffin/calibration.hpp"
 #include "tools/puffin/commands.hpp"
 #include "tools/puffin/console.hpp"
@@ -93,18 +95,28 @@ void test_picture(const std::filesystem::path& folder) {
   if (std::filesystem::file_size(folder / "test.png") == 0) throw std::runtime_error("the picture is empty");
 }
 
-bool tell(const std::string& name, const std::function<std::string()>& test) {
+/// What the checks came to: the machine lacks something, or the program does.
+struct Verdict {
+  bool fit = true, well = true;
+};
+
+/// Runs a check and prints its line. What fails for want of memory, or a check of a `resource`, speaks against the
+/// machine.
+void tell(const std::string& name, bool resource, Verdict& verdict, const std::function<std::string()>& test) {
+  const std::string label = name + std::string(name.size() < 12 ? 12 - name.size() : 1, ' ');
   try {
-    print(name + std::string(name.size() < 12 ? 12 - name.size() : 1, ' ') + test());
-    return true;
+    print(label + test());
+  } catch (const std::bad_alloc&) {
+    print(label + "FAILED: not enough memory");
+    verdict.fit = false;
   } catch (const std::exception& e) {
-    print(name + std::string(name.size() < 12 ? 12 - name.size() : 1, ' ') + "FAILED: " + e.what());
-    return false;
+    print(label + "FAILED: " + e.what());
+    (resource ? verdict.fit : verdict.well) = false;
   }
 }
 
 /// Room for a run of a device at the default cell and for its files.
-constexpr double least_memory = 1e9, least_disk = 1e9;  // [byte]
+constexpr double least_memory = 1e9, least_disk = 1e9, least_scratch = 1e7;  // [byte]
 
 std::string memory() {
   const double bytes = available_memory();
@@ -135,23 +147,29 @@ std::string threads() {
 }
 
 int doctor() {
-  bool fit = true, well = true;
+  Verdict v;
   std::optional<Scratch> scratch;
-  fit &= tell("scratch", [&]() -> std::string {
+  tell("scratch", true, v, [&]() -> std::string {
     try {
       scratch.emplace();
     } catch (const std::filesystem::filesystem_error& e) {
       throw std::runtime_error(std::string(e.code().message()) + ": set TMPDIR to a folder that can be written");
     }
+    const auto bytes = static_cast<double>(std::filesystem::space(scratch->path()).available);
+    if (bytes < least_scratch) {
+      const std::string where = scratch->path().parent_path();
+      scratch.reset();
+      throw std::runtime_error(as_bytes(bytes) + " free in " + where + ": set TMPDIR to a folder with more room");
+    }
     return scratch->path().parent_path().string() + " can be written";
   });
-  well &= tell("processor", processor);
-  well &= tell("kernel", instruction_set);
-  well &= tell("threads", threads);
-  fit &= tell("memory", memory);
-  fit &= tell("disk", disk);
-  well &= tell("bandwidth", [] { return four_digits(memory_bandwidth() / 1e9) + " GB/s"; });
-  well &= tell("lattice", [] {
+  tell("processor", false, v, processor);
+  tell("kernel", false, v, instruction_set);
+  tell("threads", false, v, threads);
+  tell("memory", true, v, memory);
+  tell("disk", true, v, disk);
+  tell("bandwidth", false, v, [] { return four_digits(memory_bandwidth() / 1e9) + " GB/s"; });
+  tell("lattice", false, v, [] {
     cases::Numerics n;
     n.smagorinsky_constant = 0.1;
     n.hrr_sigma = 0.98;
@@ -159,16 +177,16 @@ int doctor() {
     return four_digits(speed / 1e6) + " million cells a second (rr3, smagorinsky, float)";
   });
   if (!scratch) return resources;  // the libraries are tested by writing
-  well &= tell("vtk", [&] { return test_vtk(scratch->path()), "writes and reads"; });
-  well &= tell("hdf5", [&] { return test_hdf5(scratch->path()), "writes and reads"; });
-  well &= tell("pictures", [&] { return test_picture(scratch->path()), "painted without a display"; });
-  well &= tell("micromodels", [] {
+  tell("vtk", false, v, [&] { return test_vtk(scratch->path()), "writes and reads"; });
+  tell("hdf5", false, v, [&] { return test_hdf5(scratch->path()), "writes and reads"; });
+  tell("pictures", false, v, [&] { return test_picture(scratch->path()), "painted without a display"; });
+  tell("micromodels", false, v, [] {
     for (const std::string& folder : cases::micromodel_directories())
       if (std::filesystem::is_directory(folder)) return folder;
     throw std::runtime_error("none of the folders of shipped micro-models is there: install Puffin anew, or name " +
                              std::string("micro-model files by their whole path"));
   });
-  return !well ? internal_error : fit ? ok : resources;
+  return !v.well ? internal_error : v.fit ? ok : resources;
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 
 #include "tools/puffin/arguments.hpp"
 #include "tools/puffin/assessment_text.hpp"
-#include "tools/puffin/calibration.hpp"
+#include "tools/puffin/available_memory.hpp"
 #include "tools/puffin/commands.hpp"
 #include "tools/puffin/console.hpp"
 #include "tools/puffin/exit_codes.hpp"

@@ -105,12 +105,13 @@ output::WallFrame wall_frame(const cases::Simulation& s) {
   frame.patch.assign(s.surface.patches.of_triangle.begin(), s.surface.patches.of_triangle.end());
   for (std::size_t p = 0; p < s.models.patches.size(); ++p)
     frame.patches.push_back({s.models.patches[p].patch, s.models.patches[p].is_inlet || s.models.patches[p].is_outlet});
-  if (!s.description.carriers) return frame;
+  const bool carried = s.state.scalars.scalars() > 0;
+  if (!carried && !s.description.carriers) return frame;
   const std::vector<double> stuck =
-      s.state.scalars.scalars() > 0 ? coupling::wall_map(s.state.fines, s.state.budget, 0, s.models.triangle_of_slot)
-                                    : s.state.fines.stuck;
+      carried ? coupling::wall_map(s.state.fines, s.state.budget, 0, s.models.triangle_of_slot) : s.state.fines.stuck;
   for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
     frame.fines.push_back(static_cast<float>(stuck[t] / mesh.area(t)));
+    if (!s.description.carriers) continue;  // fines of the inflow alone: nothing hits the walls
     frame.hits.push_back(static_cast<float>(s.state.collisions.hits[t]));
     frame.energy.push_back(static_cast<float>(s.state.collisions.energy[t]));
   }

@@ -32,6 +32,7 @@ void Progress::update(const Recorder& recorder, const std::vector<std::string>& 
   status.end_time = end_;
   status.wall_clock = wall;
   status.warnings = warnings;
+  if (state.air_mass.cells > 0) status.air_lost = state.air_mass.lost_share();
   if (state.air) {
     status.steps = state.air->steps;
     const double busy = state.effort.air + state.effort.links;

@@ -13,7 +13,7 @@
 #include "cases/write_case.hpp"
 #include "tools/output/render.hpp"
 #include "tools/output/report.hpp"
-#include "tools/puffin/calibration.hpp"
+#include "tools/puffin/available_memory.hpp"
 #include "tools/puffin/console.hpp"
 #include "tools/puffin/exit_codes.hpp"
 #include "tools/puffin/sampling.hpp"

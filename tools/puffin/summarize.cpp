@@ -225,6 +225,8 @@ output::Summary summarize(const cases::Simulation& s, const Recorder& recorder, 
     r.limited = air.limited;
     r.backflow = air.backflow;
     r.mach_max = std::sqrt(3.0) * s.state.extremes.max_speed_lu;
+    if (const lbm::MassBook& m = s.state.air_mass; m.cells > 0)
+      r.air_mass = {m.lost_share(), m.returned_share(), m.missing_share(), m.corrections};
     if (recorder.drops().has_both()) r.pressure = pressures(s, recorder.history());
     for (const auto& patch : s.description.output.forces) {
       const auto f = read_force(s, patch);

@@ -84,6 +84,19 @@ TEST(Checkpoint, ARestoredStateGoesOnBitForBit) {
   }
 }
 
+TEST(Checkpoint, KeepsTheBookOfAClosedAirsMass) {
+  const auto sim = coupled_simulation(), other = coupled_simulation();
+  sim->state.air_mass = {3456, -0.5, 0.25, 0.125, 3};  // an open air has none; any will do
+  const Checkpoint checkpoint = saved(*sim);
+  restore(checkpoint, other->state);
+  const lbm::MassBook& m = other->state.air_mass;
+  EXPECT_EQ(m.cells, 3456);
+  EXPECT_EQ(m.booked, -0.5);
+  EXPECT_EQ(m.missing, 0.25);
+  EXPECT_EQ(m.returned, 0.125);
+  EXPECT_EQ(m.corrections, 3);
+}
+
 TEST(Checkpoint, AlteredBytesAreRefusedOrHarmless) {
   const auto sim = coupled_simulation();
   run(*sim, 0.7e-3);

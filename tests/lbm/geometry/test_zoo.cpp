@@ -176,8 +176,8 @@ TEST_P(Zoo, IsDescribedRightAndMendedIfItCanBe) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Animals, Zoo, ::testing::ValuesIn(zoo()), [](const auto& info) {
-  std::string name = info.param.name;
+INSTANTIATE_TEST_SUITE_P(Animals, Zoo, ::testing::ValuesIn(zoo()), [](const auto& animal) {
+  std::string name = animal.param.name;
   std::replace(name.begin(), name.end(), '-', '_');
   return name;
 });

@@ -36,6 +36,7 @@ Summary full_summary() {
   s.skipped = {{"carriers at rest", 1200, 33.5}};
   s.pressure = PressureSummary{{2400.0, 2300.0, 2500.0, 20}, {2600.0, 2550.0, 2650.0, 21}, 0.19, 0.211};
   s.forces = {{"wall", 1e-3, 2e-3, 3e-3}};
+  s.air_mass = AirMass{1.5e-6, 1.25e-6, 2.5e-7, 40};
   s.carriers = CarrierSummary{25000, 24990, 10, 0.0004, 0.064, 0.097, 0.2105, 0.13};
   s.fines = {{"L-Base", 0.67, 0.12, 0.001, 0.2, 0.009, 3e-12, {0.997, 0.002, 0.001}},
              {"L-Diffusion", 0.66, 0.13, 0.001, 0.2, 0.009, 4e-12, {0.996, 0.003, 0.001}}};
@@ -78,6 +79,10 @@ TEST(Summary, HoldsEveryKeyOfTheInterfaceWithItsValue) {
                                                     {"/tau_min", 0.5003},
                                                     {"/mach_max", 0.21},
                                                     {"/memory_peak", 1.5e8},
+                                                    {"/air_mass/lost", 1.5e-6},
+                                                    {"/air_mass/returned", 1.25e-6},
+                                                    {"/air_mass/missing", 2.5e-7},
+                                                    {"/air_mass/corrections", 40},
                                                     {"/phases/carriers", 120.25},
                                                     {"/skipped/0/times", 1200},
                                                     {"/skipped/0/seconds_saved", 33.5},
@@ -158,11 +163,12 @@ TEST(Reference, DifferenceIsOursMinusGiven) {
 TEST(Status, ReadsBack) {
   const Scratch folder;
   write_status(folder / "status.json",
-               {"L-Base", "running", "carriers", 0.1, 0.211, 12345, 40.5, 60.0, 66.5, 1e-13, {"tau near 1/2"}});
+               {"L-Base", "running", "carriers", 0.1, 0.211, 12345, 40.5, 60.0, 66.5, 1e-13, 2e-8, {"tau near 1/2"}});
   const Status back = read_status(folder / "status.json");
   EXPECT_EQ(back.phase, "carriers");
   EXPECT_EQ(back.steps, 12345);
   EXPECT_EQ(back.eta, 66.5);
+  EXPECT_EQ(back.air_lost, 2e-8);
   EXPECT_EQ(back.warnings, std::vector<std::string>{"tau near 1/2"});
   EXPECT_FALSE(std::filesystem::exists(folder / "status.json.part"));
 }

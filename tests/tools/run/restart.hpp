@@ -94,7 +94,9 @@ inline void expect_same_outputs(const std::filesystem::path& a, const std::files
   };
   for (std::string x, y; std::getline(left, x);) {
     ASSERT_TRUE(std::getline(right, y));
-    if (!timed(x)) EXPECT_EQ(x, y);
+    if (!timed(x)) {
+      EXPECT_EQ(x, y);
+    }
   }
 }
 

@@ -1,17 +1,10 @@
 // Studies as a user sees them: what fails fails alone, what is finished is never redone, shared runs give the same.
 
-#include <gtest/gtest.h>
-#include <sys/wait.h>
-
-#include <chrono>
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <sstream>
-#include <system_error>
-#include <thread>
 
+#include "tests/tools/run/batch_study.hpp"
 #include "tests/tools/run/small_dose.hpp"
 #include "tools/output/csv_file.hpp"
 #include "tools/output/study_results.hpp"
@@ -20,72 +13,7 @@
 namespace {
 
 using namespace puffin;
-namespace fs = std::filesystem;
-
-/// 320 cells and some 100 steps: a run of milliseconds.
-constexpr const char* duct = R"toml(
-schema = 1
-name = "duct"
-[geometry]
-generator = "duct"
-[geometry.duct]
-length = "10 mm"
-width = "2 mm"
-height = "2 mm"
-[air]
-density = 1.2
-viscosity = 1.8e-5
-[[air.boundary]]
-patch = "inlet"
-type = "velocity-inlet"
-velocity = "5 m/s"
-[[air.boundary]]
-patch = "outlet"
-type = "pressure-outlet"
-[numerics]
-dx = "0.5 mm"
-[stop]
-time = "1 ms"
-[output]
-statistics = "0.1 ms"
-[reference.thesis]
-static_drop = 100
-)toml";
-
-class BatchStudy : public ::testing::Test {
- protected:
-  void SetUp() override {
-    folder_ = fs::temp_directory_path() /
-              ("puffin-batch-" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-    file("case.toml", duct);
-  }
-  /// Runs whose batch was killed may still be writing their last checkpoint.
-  void TearDown() override {
-    std::error_code busy;
-    for (int n = 0; n < 100; ++n) {
-      fs::remove_all(folder_, busy);
-      if (!busy) return;
-      std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    }
-  }
-  void file(const std::string& name, const std::string& text) const { std::ofstream(folder_ / name) << text; }
-  std::string text(const std::string& name) const {
-    std::ifstream stream(folder_ / name);
-    std::stringstream all;
-    all << stream.rdbuf();
-    return all.str();
-  }
-  int shell(const std::string& command) const {
-    return WEXITSTATUS(std::system(("cd " + folder_.string() + " && " + command).c_str()));
-  }
-  int batch(const std::string& arguments) const {
-    return shell(std::string(PUFFIN_BINARY_DIR) + "/puffin batch study.toml --out out " + arguments +
-                 " > json.txt 2>> log.txt");
-  }
-  fs::path folder_;
-};
+using namespace puffin::test;
 
 TEST_F(BatchStudy, AFailedCaseFailsAloneAndIsTriedAgainOnlyWhenAsked) {
   file(
@@ -262,55 +190,6 @@ TEST_F(BatchStudy, OfASharedFlowOnlyWhatIsNotFinishedIsRunAgain) {
   ASSERT_EQ(batch(""), 0) << text("log.txt");
   EXPECT_EQ(text("out/a/seed-1/summary.json"), before);
   EXPECT_NEAR(output::read_summary(folder_ / "out/b/seed-1/summary.json").simulated_time, 2e-3, 1e-5);
-}
-
-/// Stands in for Slurm: sbatch runs the tasks of the array one after the other and squeue then knows of none.
-class SlurmStudy : public BatchStudy {
- protected:
-  void SetUp() override {
-    BatchStudy::SetUp();
-    fs::create_directories(folder_ / "bin");
-    file("bin/sbatch",
-         "#!/bin/sh\nfor a in \"$@\"; do case $a in --array=*) list=${a#--array=};; *.sh) script=$a;; esac; done\n"
-         "echo \"$list\" >> " +
-             (folder_ / "sent.txt").string() +
-             "\nfor n in $(echo ${list%%%*} | tr , ' '); do SLURM_ARRAY_TASK_ID=$n sh $script; done\necho "
-             "'77;cluster'\n");
-    file("bin/squeue", "#!/bin/sh\nexit 0\n");
-    fs::permissions(folder_ / "bin/sbatch", fs::perms::owner_all);
-    fs::permissions(folder_ / "bin/squeue", fs::perms::owner_all);
-  }
-  int slurm_batch(const std::string& arguments) const {
-    return shell("PATH=$PWD/bin:$PATH " + std::string(PUFFIN_BINARY_DIR) +
-                 "/puffin batch study.toml --slurm --out out " + arguments + " > json.txt 2>> log.txt");
-  }
-};
-
-TEST_F(SlurmStudy, AnArrayGivesTheSameTablesAsTheBatch) {
-  file("study.toml",
-       "base = \"case.toml\"\n[sweep]\nmethod = \"list\"\n[sweep.range]\n\"air.density\" = [1.1, 1.2, 1.3]\n");
-  ASSERT_EQ(slurm_batch("--jobs 2"), 0) << text("log.txt");
-  EXPECT_EQ(text("sent.txt"), "0,1,2%2\n");
-  ASSERT_EQ(shell(std::string(PUFFIN_BINARY_DIR) + "/puffin batch study.toml --out here > /dev/null 2>> log.txt"), 0);
-  const auto there = output::read_study_results(folder_ / "out"), here = output::read_study_results(folder_ / "here");
-  ASSERT_EQ(there.cases.size(), 3u);
-  for (std::size_t n = 0; n < 3; ++n) {
-    ASSERT_TRUE(there.cases[n].find("static_drop"));
-    EXPECT_EQ(there.cases[n].find("static_drop")->mean, here.cases[n].find("static_drop")->mean);
-  }
-  ASSERT_EQ(slurm_batch(""), 0);  // everything is finished: nothing is sent again
-  EXPECT_EQ(text("sent.txt"), "0,1,2%2\n");
-}
-
-TEST_F(SlurmStudy, ATaskThatFailsFailsAloneAndARefusalIsTold) {
-  file("study.toml",
-       "base = \"case.toml\"\n[[case]]\nname = \"good\"\n[[case]]\nname = \"bad\"\n"
-       "set = { \"numerics.time_step\" = 8e-4, \"stop.time\" = 0.4 }\n");
-  EXPECT_EQ(slurm_batch(""), 8) << text("log.txt");
-  EXPECT_TRUE(fs::exists(folder_ / "out/good/seed-1/report.html"));
-  file("bin/sbatch", "#!/bin/sh\necho 'sbatch: error: invalid partition specified: night'\nexit 1\n");
-  EXPECT_EQ(slurm_batch("--retry-failed"), 7);
-  EXPECT_NE(text("log.txt").find("invalid partition specified: night"), std::string::npos);
 }
 
 // mean 2, standard deviation 1, t(0.975, 2) = 4.303: half width 4.303/sqrt(3) = 2.484 (four digits in the table).

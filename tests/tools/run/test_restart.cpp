@@ -62,7 +62,9 @@ TEST_F(Restart, KilledAtRandomMomentsARunEndsAsIfNothingHadHappened) {
     }
     // Killed when all was written: nothing is left to resume.
     if (ended && code == 7 && file_text(log("killed")).find("holds a finished run") != std::string::npos) break;
-    if (ended) ASSERT_EQ(code, 0) << file_text(log("killed"));
+    if (ended) {
+      ASSERT_EQ(code, 0) << file_text(log("killed"));
+    }
     ++kills;
   }
   EXPECT_GE(kills, 2);

@@ -77,7 +77,9 @@ TEST(RestartLBase, TwentyKillsAtRandomMomentsChangeNothing) {
       killed = 0;
       continue;
     }
-    if (ended) ASSERT_EQ(code, 0) << file_text(folder / "killed.log");
+    if (ended) {
+      ASSERT_EQ(code, 0) << file_text(folder / "killed.log");
+    }
     if (!ended) ++killed;
     if (!ended && rows() > furthest) ++alive;
     furthest = std::max<long>(furthest, rows());

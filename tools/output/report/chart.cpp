@@ -78,12 +78,17 @@ std::string line_chart(const LineChart& chart) {
     svg += text_at(px(tick), height - bottom + 20, short_number(tick), "middle", soft_colour);
   }
   svg += line_at(left, py(0), width - right, py(0), soft_colour);
+  double last_end = 0.0;  // of the label before (in the order of time), which the next must not touch
   for (const auto& marker : chart.markers) {
     if (marker.x < x.low || marker.x > x.high) continue;
     svg += line_at(px(marker.x), top, px(marker.x), height - bottom, soft_colour, " stroke-dasharray=\"4 4\"");
     const bool near_end = px(marker.x) > width - 150;
-    svg += text_at(px(marker.x) + (near_end ? -5 : 5), top - 5, escaped(marker.text), near_end ? "end" : "start",
-                   soft_colour, " font-size=\"12\"");
+    const double size = 6.5 * static_cast<double>(marker.text.size());  // of a label in letters of 12
+    const double from = px(marker.x) + (near_end ? -5 - size : 5);
+    const bool below = from < last_end;
+    last_end = from + size;
+    svg += text_at(px(marker.x) + (near_end ? -5 : 5), below ? top + 10 : top - 5, escaped(marker.text),
+                   near_end ? "end" : "start", soft_colour, " font-size=\"12\"");
   }
   std::vector<std::string> names;
   for (std::size_t c = 0; c < chart.curves.size(); ++c) {

@@ -23,7 +23,7 @@ p { margin: 6px 0 10px; max-width: 80ch; } .soft, figcaption { color: var(--soft
 .alarm { border-left: 5px solid #c0392b; background: #fdf1ef; padding: 10px 16px; margin: 14px 0; }
 .tiles { display: grid; grid-template-columns: repeat(auto-fit, minmax(150px, 1fr)); gap: 10px; margin: 18px 0; }
 .tile { background: var(--ground); border: 1px solid var(--line); border-radius: 8px; padding: 10px 14px; }
-.tile b { display: block; white-space: nowrap; font-size: 22px; font-weight: 650; } .tile span { color: var(--soft); font-size: 13px; }
+.tile b { display: block; white-space: nowrap; font-size: 20px; font-weight: 650; } .tile span { color: var(--soft); font-size: 13px; }
 figure { margin: 10px 0; } figure img, figure svg { width: 100%; height: auto; display: block; }
 .pair { display: grid; grid-template-columns: 1fr 1fr; gap: 6px 22px; }
 table { border-collapse: collapse; margin: 8px 0 14px; font-size: 15px; }

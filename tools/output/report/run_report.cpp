@@ -77,7 +77,7 @@ std::string head(const Run& run) {
   if (!s.fines.empty()) {
     out += tile(percent(s.fines[0].FFE), "fines emitted free (FFE)");
     out += tile(percent(s.fines[0].FFW), "fines on the walls (FFW)");
-    out += tile(significant(s.fines[0].ledger_error, 2), "error of the fines' ledger");
+    out += tile(significant(std::abs(s.fines[0].ledger_error), 2), "error of the fines' ledger");
   }
   if (s.pressure && s.pressure->total_to_static_drop.mean) {
     out += tile(significant(*s.pressure->total_to_static_drop.mean, 3) + " Pa", "total-to-static pressure drop");

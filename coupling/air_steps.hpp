@@ -1,0 +1,21 @@
+#pragma once
+// The air's part of one exchange interval.
+
+#include <span>
+
+#include "coupling/advance_together.hpp"
+#include "coupling/state.hpp"
+
+namespace puffin::coupling {
+
+/// Whether the lattice computes the air. A frozen field may have cells too: the fines need them.
+inline bool computes_air(const Models& models, const State& s) { return s.air && !models.frozen_air; }
+
+/// The carriers' reaction of the last interval becomes a force in the cells during `interval` [s].
+void give_reaction(double interval, State& s);
+
+/// `steps` steps of the air; `rescale`: dt/dt_before, applied with the first. `beside`: further states whose carriers
+/// will ask for the air's velocity. Throws Diverged.
+void step_air(const Models& models, int steps, double rescale, std::span<const Companion> beside, State& s);
+
+}  // namespace puffin::coupling

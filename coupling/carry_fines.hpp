@@ -1,0 +1,20 @@
+#pragma once
+// The fines' part of one exchange interval.
+
+#include <optional>
+
+#include "coupling/state.hpp"
+
+namespace puffin::coupling {
+
+/// Contacts count from here on [s]; before the first motion of a dose that settles there is no such time.
+std::optional<double> counted_from(const Models& models, const State& s);
+
+/// Takes fines off the carriers by the contacts and the slip of an interval of `steps` air steps, `interval` [s].
+void move_fines(const Models& models, std::int64_t steps, double interval, State& s);
+
+/// Carries the airborne fines over the steps since the last time: `now`, or when the next exchange could exceed the CFL
+/// limit. Throws Diverged.
+void carry_fines(const Models& models, bool now, State& s);
+
+}  // namespace puffin::coupling

@@ -1,0 +1,63 @@
+#include "coupling/find_loads.hpp"
+
+#include <cmath>
+#include <vector>
+
+#include "coupling/air_steps.hpp"
+#include "coupling/averaged.hpp"
+#include "coupling/drag_limit.hpp"
+#include "coupling/field_forces.hpp"
+#include "coupling/self_disturbance.hpp"
+#include "coupling/volume_fraction.hpp"
+
+namespace puffin::coupling {
+
+void find_loads(const Models& models, double interval, State& s) {
+  dem::Carriers& c = s.carriers.carriers;
+  const std::size_t count = c.size();
+  std::vector<int> which(count);
+  for (std::size_t p = 0; p < count; ++p) which[p] = static_cast<int>(p);
+  std::vector<Vec3> velocity(count, Vec3::Zero());
+  if (computes_air(models, s)) {
+    interpolate(s.stencils, s.air->moments, count, s.samples);
+    for (std::size_t p = 0; p < count; ++p) velocity[p] = s.samples.velocity_lu[p] * s.scale.speed();
+  } else if (models.frozen_air) {
+    // At the middle of the way, so that a vortex or a shear is followed to second order.
+    for (std::size_t p = 0; p < count; ++p)
+      velocity[p] = models.frozen_air(c.position[p] + 0.5 * interval * c.velocity[p]);
+  }
+  s.loads.assign(count, dem::Load{});
+  if (!s.air && !models.frozen_air) return;
+  std::vector<double> beta(count, 0.0), solid, volume;
+  double largest_fraction = 1.0;
+  if (s.air && models.volume_fraction != VolumeFraction::none) {
+    volume.resize(count);
+    for (std::size_t p = 0; p < count; ++p)
+      volume[p] = c.carriers[p] * 4.1887902047863909846 * std::pow(c.single_radius[p], 3);
+    solid.assign(count, 0.0);
+    largest_fraction = solid_fraction(s.stencils, volume, s.scale.dx, s.spreader, solid);
+  }
+  drag_coefficients(models.drag, models.air, which, velocity, c.velocity, c.single_radius, c.carriers, solid, beta);
+  if (models.frozen_air) {  // the coefficient too at the middle: with the slip that half the interval will have left
+    std::vector<Vec3> middle(count);
+    for (std::size_t p = 0; p < count; ++p)
+      middle[p] = velocity[p] + (c.velocity[p] - velocity[p]) * std::exp(-0.5 * interval * beta[p] / c.mass[p]);
+    drag_coefficients(models.drag, models.air, which, velocity, middle, c.single_radius, c.carriers, solid, beta);
+  }
+  if (computes_air(models, s) && models.two_way) take_off_self(models, solid, s, velocity, beta);
+  if (computes_air(models, s))
+    for (const int p : s.stencils.outside()) beta[p] = 0.0;      // no air there: nothing drags
+  const double reaction_time = interval / least_share(s.pores);  // a cell that is partly solid holds less air
+  const bool harmless = !volume.empty() && load_bound(largest_fraction, beta, volume, reaction_time, s.scale) <= 1.0;
+  if (computes_air(models, s) && models.two_way && !harmless) {
+    std::vector<double> scratch(count, 0.0);
+    limit_drag(s.stencils, reaction_time, s.scale, s.spreader, scratch, beta);
+  }
+  for (std::size_t p = 0; p < count; ++p) {
+    s.loads[p].air_velocity = velocity[p];
+    s.loads[p].drag = beta[p];
+  }
+  add_field_forces(models, interval, s);
+}
+
+}  // namespace puffin::coupling

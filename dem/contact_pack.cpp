@@ -1,0 +1,25 @@
+#include "dem/contact_pack.hpp"
+
+#include <cstdlib>
+#include <string_view>
+
+namespace puffin::dem {
+namespace {
+
+PairContacts* choose() {
+  const char* asked = std::getenv("PUFFIN_ISA");
+  const std::string_view most = asked ? asked : "avx512";
+  if (most == "baseline" || !__builtin_cpu_supports("avx2")) return baseline::pair_contacts();
+  const bool wide = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+                    __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl");
+  return wide && most != "avx2" ? avx512::pair_contacts() : avx2::pair_contacts();
+}
+
+}  // namespace
+
+PairContacts* pair_contacts() {
+  static PairContacts* const chosen = choose();
+  return chosen;
+}
+
+}  // namespace puffin::dem
