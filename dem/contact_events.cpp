@@ -92,7 +92,7 @@ void begin_contact(const Meeting& m, std::size_t index, const Substep& substep, 
   Vector3d apart = w.record_a.acceleration;
   if (w.b != nullptr) apart -= w.record_b->acceleration;
   const double pull = parting == 0.0 ? m.normal.dot(apart) : 0.0;
-  if (hangs_at_rest(parting, pull, w.pair)) hang(m, pull, w.pair, c, w.a, w.b);
+  if (hangs_at_rest(parting, pull, w.pair)) hang(m, pull, w.law, w.pair, c, w.a, w.b);
   const WallPlane plane = w.touch.plane;
   restore_contact(static_cast<std::int32_t>(index), c, rules, cluster);
   w.touch.plane = plane;

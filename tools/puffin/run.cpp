@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "cases/case_error.hpp"
+#include "cases/check_places.hpp"
 #include "cases/write_case.hpp"
 #include "tools/output/render.hpp"
 #include "tools/output/report.hpp"
@@ -50,6 +51,7 @@ int run_here(const RunOptions& options, cases::Case c, int threads, std::chrono:
   // Only now: the reference speed, and with it the time step, belong to the whole run that the case describes.
   c.stop.time = s.description.stop.time = std::min(c.stop.time, options.until);
   PointReader(s).check_places(s);
+  for (const std::string& text : cases::carrier_place_warnings(s.description, *s.tree)) log_warning(text);
   const auto out = options.out.empty() ? std::nullopt : std::optional(options.out);
   const output::OutputFolder folder(out, c.name, options.resume);
   announce(folder, c);
