@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "cases/check_boundaries.hpp"
+#include "cases/check_places.hpp"
 #include "cases/derived.hpp"
 #include "cases/inlet_profile.hpp"
 #include "cases/room.hpp"
@@ -18,6 +19,7 @@ std::unique_ptr<Simulation> build(const Case& c, const StoredFieldReader& stored
   refuse_untagged_openings(c, s->surface.patches);
   require_room(c, s->surface, available);
   s->tree = std::make_shared<const lbm::geometry::TriangleTree>(s->surface.mesh);
+  if (const auto problems = carrier_place_problems(c, *s->tree); !problems.empty()) throw CaseError(problems);
   if (c.air.model == AirModel::lbm || c.numerics.dx || c.numerics.cells)
     s->dx = cell_size(c.numerics, s->surface.volume);
   complete_file_profiles(s->surface, s->description);

@@ -39,6 +39,8 @@ LiftOff lift_off(const coupling::Models& m, double diameter, double count) {
 
 std::string parcel_bias(const Carriers& c, const coupling::Models& m) {
   const LiftOff slip = lift_off(m, c.diameter, static_cast<double>(c.parcel));
+  if (!(slip.single > 0.0 && std::isfinite(slip.single)))  // nothing to lift off from, or nothing that lifts
+    return "one tracked body stands for " + std::to_string(c.parcel) + " carriers";
   const char* scaling = c.adhesion.parcel_scaling == ParcelScaling::ddpm     ? "ddpm"
                         : c.adhesion.parcel_scaling == ParcelScaling::energy ? "energy"
                                                                              : "mass";
@@ -47,8 +49,7 @@ std::string parcel_bias(const Carriers& c, const coupling::Models& m) {
                 "one tracked body stands for %lld carriers. With %s scaling the air must pass a parcel on a wall at "
                 "%.3g m/s to pull with the force of its adhesion, a single carrier at %.3g m/s: the threshold of "
                 "lift-off is %.2f times that of single carriers",
-                static_cast<long long>(c.parcel), scaling, slip.parcel, slip.single,
-                slip.single > 0.0 && std::isfinite(slip.single) ? slip.parcel / slip.single : 1.0);
+                static_cast<long long>(c.parcel), scaling, slip.parcel, slip.single, slip.parcel / slip.single);
   return text;
 }
 

@@ -11,6 +11,7 @@
 #include "dem/free_flight.hpp"
 #include "dem/gather.hpp"
 #include "dem/meeting.hpp"
+#include "dem/parts.hpp"
 #include "dem/rest.hpp"
 
 namespace puffin::dem {
@@ -59,18 +60,20 @@ void commit(const Rules& rules, Cluster& cluster, State& state, Events& events) 
     state.drag_impulse[i] = record.drag_impulse;
     if (record.stuck) all.rest[i] = Rest::stuck;
   }
-  for (const Touch& touch : cluster.touches) {
-    const bool live = touch.memory.phase != ContactPhase::free;
-    if (touch.place >= 0 && !live) {
-      unlink(touch.place, state);
-    } else if (touch.place >= 0) {
+  in_parts(cluster.touches.size(), 1024, [&](std::size_t, std::size_t first, std::size_t last) {
+    for (std::size_t t = first; t < last; ++t) {
+      const Touch& touch = cluster.touches[t];
+      if (touch.place < 0 || !cluster.alive[t]) continue;
       Contact& c = state.contacts[touch.place];
       const std::int32_t next_a = c.next_a, next_b = c.next_b;
       c = touch.memory;
       c.next_a = next_a, c.next_b = next_b;
-    } else if (live) {
-      link(touch.memory, state);
     }
+  });
+  for (std::size_t t = 0; t < cluster.touches.size(); ++t) {
+    const Touch& touch = cluster.touches[t];
+    if (touch.place >= 0 && !cluster.alive[t]) unlink(touch.place, state);
+    if (touch.place < 0 && cluster.alive[t]) link(touch.memory, state);
   }
   settle(rules, cluster, state);
   events.begun.insert(events.begun.end(), cluster.begun.begin(), cluster.begun.end());

@@ -84,6 +84,7 @@ void Motion::sum_forces(std::size_t i) {
   double force[3] = {0.0, 0.0, 0.0}, torque[3] = {0.0, 0.0, 0.0};
   const bool rolling = rules_.rotation && (rules_.carrier.rolling > 0.0 || rules_.wall.rolling > 0.0);
   const auto add = [&](std::size_t touch, bool second) {
+    if (!cluster_.alive[touch]) return;
     const Pull& pull = cluster_.pulls[touch];
     const double sign = second ? -1.0 : 1.0;
     for (int d = 0; d < 3; ++d) force[d] += sign * pull.force[d];
@@ -284,14 +285,15 @@ void Motion::run() {
       evaluate(h, std::min(left, longest_growth * h));
     c.body_steps += moving;
   }
-  for (std::size_t i = 0; i < c.touches.size(); ++i) {
-    if (!c.live(i)) {
-      c.touches[i].memory.phase = ContactPhase::free;
-      continue;
+  if (c.disturbed) return;
+  for (std::size_t i = 0; i < c.touches.size(); ++i)
+    if (c.alive[i]) note_overlap(i, c);
+  in_parts(c.springs.size(), blocks_a_part, [&](std::size_t, std::size_t first, std::size_t last) {
+    for (std::size_t i = first * Springs::lanes; i < std::min(c.touches.size(), last * Springs::lanes); ++i) {
+      if (c.alive[i]) store_contact(i, rules_, c);
+      if (!c.alive[i]) c.touches[i].memory.phase = ContactPhase::free;
     }
-    note_overlap(i, c);
-    store_contact(i, rules_, c);
-  }
+  });
 }
 
 }  // namespace

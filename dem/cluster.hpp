@@ -87,6 +87,7 @@ struct Cluster {
   std::vector<Touch> touches;
   std::vector<Springs> springs;           // touch i: lane i % Springs::lanes of block i / Springs::lanes
   std::vector<std::uint8_t> events;       // of each block: lanes where something begins or ends in this sub-step
+  std::vector<std::uint8_t> alive;        // of each touch: it is a live contact, its pull counts
   std::vector<Pull> pulls;                // of each touch, and of the empty lanes of the last block
   std::vector<PairNumbers> pairs;         // each touch has its own, or that of a touch before it
   std::vector<PairConstants> constants;   // of each of the pairs

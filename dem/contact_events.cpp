@@ -92,7 +92,7 @@ void begin_contact(const Meeting& m, std::size_t index, const Substep& substep, 
   Vector3d apart = w.record_a.acceleration;
   if (w.b != nullptr) apart -= w.record_b->acceleration;
   const double pull = parting == 0.0 ? m.normal.dot(apart) : 0.0;
-  if (hangs_at_rest(parting, pull, w.pair)) hang(m, pull, w.pair, c, w.a, w.b);
+  if (hangs_at_rest(parting, pull, w.pair)) hang(m, pull, w.law, w.pair, c, w.a, w.b);
   const WallPlane plane = w.touch.plane;
   restore_contact(static_cast<std::int32_t>(index), c, rules, cluster);
   w.touch.plane = plane;
@@ -154,6 +154,7 @@ void end_contact(double time, std::size_t index, Cluster& cluster) {
   touch.rolling_moment = Vector3d::Zero();
   touch.rolling_use = 0.0;
   s.phase[l] = lane::free;
+  cluster.alive[index] = 0;
   s.idle_until = 0.0;
   Pull& pull = cluster.pulls[index];
   for (int d = 0; d < 3; ++d) pull.force[d] = pull.moment[d] = 0.0;

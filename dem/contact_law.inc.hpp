@@ -194,12 +194,15 @@ template <class R>
   return select(soon, select(closing < zero, leaving, arriving), step);
 }
 
-/// A quiet bond (little energy against the well, little of its strength in use) needs only stability: t_c/8.
+/// A bond that keeps less than half of its well, in motion and in its springs, cannot break by itself: while no more
+/// than half of its strength is in use it needs only stability, t_c/8. The factor on its sub-step; for a contact that
+/// may bond: on that of its bond.
 template <class R>
 [[gnu::always_inline]] inline R quiet_factor(const SpringLaw& law, const R& overlap, const R& closing, const R& spring,
                                              const Spring<R>& c) {
-  const auto quiet = c.phase == R(lane::bonded) && closing * closing < R(0.1) * c.well * c.inverse_mass &&
-                     overlap < R(0.5) * c.knee && R(0.0) - spring < R(0.5) * c.pull_off;
+  const R energy = closing * closing + spring * overlap * c.inverse_mass;  // twice, of unit mass
+  const auto quiet =
+      energy < c.well * c.inverse_mass && overlap < R(0.5) * c.knee && R(0.0) - spring < R(0.5) * c.pull_off;
   return select(quiet, R(law.quiet_factor), R(1.0));
 }
 
@@ -209,7 +212,7 @@ template <class R>
                                           const Spring<R>& c) {
   const R zero(0.0);
   const R coarse = quiet_factor(law, e.overlap, e.closing, n.spring, c);
-  R step = coarse * n.step;
+  R step = select(c.phase == R(lane::bonded), coarse, R(1.0)) * n.step;
   const auto over = e.overlap > c.knee;
   const auto reaches = e.closing > zero && (over || e.closing * step > c.knee - e.overlap);
   if (any(reaches)) {
@@ -217,6 +220,6 @@ template <class R>
     const R near = (R(1.05) * c.knee - e.overlap) / e.closing;
     step = select(reaches, minimum(step, select(over, deep, near)), step);
   }
-  step = stop_at_separation(e.overlap, e.closing, c, step);
+  step = select(c.phase == R(lane::bonded), step, stop_at_separation(e.overlap, e.closing, c, step));
   return mind_the_bond(e.overlap, e.closing, coarse * minimum(n.step, c.pull_step), c, step);
 }

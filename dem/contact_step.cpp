@@ -55,11 +55,11 @@ single::Encounter<double> encounter(const Meeting& m, double offset, const Body&
 double hertz_step(const SpringLaw& springs, const PairLaw& pair, const single::Normal<double>& n,
                   const single::Encounter<double>& e, const single::Spring<double>& c) {
   const double coarse = single::quiet_factor(springs, e.overlap, e.closing, n.spring, c);
-  double step = coarse * n.step;
+  double step = (c.phase == lane::bonded ? coarse : 1.0) * n.step;
   const double energy = pair.mass * e.closing * e.closing;
   if (e.overlap < 2.0 * pair.bend && energy < 100.0 * pair.largest_pull() * pair.bend)
     step = std::min(step, bend_way * pair.bend / std::max(std::abs(e.closing), 1e-300));
-  step = single::stop_at_separation(e.overlap + pair.jkr.stretch, e.closing, c, step);
+  if (c.phase != lane::bonded) step = single::stop_at_separation(e.overlap + pair.jkr.stretch, e.closing, c, step);
   return single::mind_the_bond(e.overlap, e.closing, coarse * std::min(n.step, c.pull_step), c, step);
 }
 

@@ -4,17 +4,20 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "dem/chains.hpp"
 #include "dem/first_touch.hpp"
 #include "dem/meeting.hpp"
+#include "dem/parts.hpp"
 
 namespace puffin::dem {
 namespace {
 
 using Eigen::Vector3d;
-constexpr int steps_of_budget = 8;  // a neighbour list should serve this many steps at the present speeds
+constexpr std::size_t carriers_a_part = 512;  // shared among threads
+constexpr int steps_of_budget = 8;            // a neighbour list should serve this many steps at the present speeds
 
 bool moves(const State& state, std::int32_t i) { return state.carriers.rest[i] == Rest::awake; }
 
@@ -56,56 +59,77 @@ void unite(std::vector<std::int32_t>& parent, std::int32_t i, std::int32_t j) {
 void find_pairs(double duration, const State& state, Gathering& g) {
   const Carriers& all = state.carriers;
   const Neighbours& near = state.neighbours;
-  g.pairs.clear();
-  for (const std::int32_t i : g.awake) {
-    const Vector3d x = all.position[i], v = all.velocity[i];
-    for (std::int32_t e = near.begin[i]; e < near.begin[i + 1]; ++e) {
-      const std::int32_t j = near.list[e];
-      const bool free = moves(state, j);
-      if (free && j < i) continue;
-      const double margin = g.margin[i] + (free ? g.margin[j] : 0.0);
-      const Vector3d p = x - all.position[j], w = v - all.velocity[j];
-      const double reach = all.radius[i] + all.radius[j] + margin;
-      const double p2 = p.squaredNorm(), pw = p.dot(w), w2 = w.squaredNorm();
-      if (p2 > reach * reach) {
-        if (pw >= 0.0) continue;
-        const double time = std::min(duration, -pw / w2);
-        if (p2 + time * (2.0 * pw + time * w2) > reach * reach) continue;
+  const std::size_t parts = (g.awake.size() + carriers_a_part - 1) / carriers_a_part;
+  if (g.part_pairs.size() < parts) g.part_pairs.resize(parts);
+  in_parts(g.awake.size(), carriers_a_part, [&](std::size_t part, std::size_t first, std::size_t last) {
+    auto& pairs = g.part_pairs[part];
+    pairs.clear();
+    for (std::size_t k = first; k < last; ++k) {
+      const std::int32_t i = g.awake[k];
+      const Vector3d x = all.position[i], v = all.velocity[i];
+      for (std::int32_t e = near.begin[i]; e < near.begin[i + 1]; ++e) {
+        const std::int32_t j = near.list[e];
+        const bool free = moves(state, j);
+        if (free && j < i) continue;
+        const double margin = g.margin[i] + (free ? g.margin[j] : 0.0);
+        const Vector3d p = x - all.position[j], w = v - all.velocity[j];
+        const double reach = all.radius[i] + all.radius[j] + margin;
+        const double p2 = p.squaredNorm(), pw = p.dot(w), w2 = w.squaredNorm();
+        if (p2 > reach * reach) {
+          if (pw >= 0.0) continue;
+          const double time = std::min(duration, -pw / w2);
+          if (p2 + time * (2.0 * pw + time * w2) > reach * reach) continue;
+        }
+        pairs.push_back({i, j});
       }
-      g.pairs.push_back({i, j});
     }
-  }
+  });
+  g.pairs.clear();
+  for (std::size_t p = 0; p < parts; ++p) g.pairs.insert(g.pairs.end(), g.part_pairs[p].begin(), g.part_pairs[p].end());
 }
 
 /// What contacts of this step may do to the courses: widens the margins of the carriers that will meet something.
 bool widen_margins(double duration, const Rules& rules, const State& state, Gathering& g) {
   const Carriers& all = state.carriers;
+  const double e = 1.0 + rules.carrier.restitution + rules.carrier.largest_friction();
+  g.blows.resize(g.pairs.size());
+  in_parts(g.pairs.size(), 4 * carriers_a_part, [&](std::size_t, std::size_t first, std::size_t last) {
+    for (std::size_t k = first; k < last; ++k) {
+      const auto [i, j] = g.pairs[k];
+      const Vector3d p = all.position[i] - all.position[j], w = all.velocity[i] - all.velocity[j];
+      const double reach = all.radius[i] + all.radius[j];
+      const double time = std::max(0.0, first_touch(p, w, Vector3d::Zero(), reach, duration));
+      g.blows[k] = 0.0;
+      if (!(time <= duration)) continue;
+      const Vector3d q = p + time * w;
+      g.blows[k] = std::max(0.0, e * std::max(0.0, -q.dot(w) / q.norm()) * (duration - time));
+    }
+  });
   bool widened = false;
-  const auto widen = [&](std::int32_t i, double speed_change, double left) {
-    if (speed_change <= 0.0 || left <= 0.0) return;
-    g.margin[i] += speed_change * left;
-    widened = true;
-  };
-  for (const auto& [i, j] : g.pairs) {
-    const Vector3d p = all.position[i] - all.position[j], w = all.velocity[i] - all.velocity[j];
-    const double reach = all.radius[i] + all.radius[j];
-    const double time = std::max(0.0, first_touch(p, w, Vector3d::Zero(), reach, duration));
-    if (!(time <= duration)) continue;
-    const Vector3d q = p + time * w;
-    const double closing = std::max(0.0, -q.dot(w) / q.norm());
-    const double e = 1.0 + rules.carrier.restitution + rules.carrier.largest_friction();
+  for (std::size_t k = 0; k < g.pairs.size(); ++k) {
+    if (g.blows[k] == 0.0) continue;
+    const auto [i, j] = g.pairs[k];
     const bool free = moves(state, j);
     const double share = free ? all.mass[j] / (all.mass[i] + all.mass[j]) : 1.0;
-    widen(i, e * share * closing, duration - time);
-    if (free) widen(j, e * (1.0 - share) * closing, duration - time);
+    g.margin[i] += share * g.blows[k];
+    if (free) g.margin[j] += (1.0 - share) * g.blows[k];
+    widened = true;
   }
-  for (const std::int32_t i : g.awake)
-    for_each_contact(state, i, [&](std::int32_t place) {
-      const Contact& c = state.contacts[place];
-      const Vector3d w = c.b >= 0 ? Vector3d(all.velocity[c.a] - all.velocity[c.b]) : all.velocity[c.a];
-      widen(i, w.norm() + std::abs(c.normal_force) / std::sqrt(c.stiffness * all.mass[i]), duration);
-    });
-  return widened;
+  std::atomic<bool> by_contacts = false;
+  in_parts(g.awake.size(), carriers_a_part, [&](std::size_t, std::size_t first, std::size_t last) {
+    bool some = false;
+    for (std::size_t k = first; k < last; ++k) {
+      const std::int32_t i = g.awake[k];
+      for_each_contact(state, i, [&](std::int32_t place) {
+        const Contact& c = state.contacts[place];
+        const Vector3d w = c.b >= 0 ? Vector3d(all.velocity[c.a] - all.velocity[c.b]) : all.velocity[c.a];
+        g.margin[i] += (w.norm() + std::abs(c.normal_force) / std::sqrt(c.stiffness * all.mass[i])) * duration;
+        some = true;
+      });
+    }
+    if (some) by_contacts = true;
+  });
+  return widened || by_contacts;
 }
 
 }  // namespace

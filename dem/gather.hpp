@@ -13,11 +13,13 @@ namespace puffin::dem {
 
 /// Scratch of one air step; kept between steps for its memory alone.
 struct Gathering {
-  std::vector<std::int32_t> awake;                  // places, ascending
-  std::vector<Eigen::Vector3d> acceleration;        // by load, drag and gravity, of each carrier that is awake [m/s^2]
-  std::vector<double> margin;                       // how far a carrier may leave its straight course in this step [m]
-  std::vector<std::uint8_t> at_wall;                // may touch a wall in this step
-  std::vector<std::array<std::int32_t, 2>> pairs;   // may touch each other in this step; the first is awake
+  std::vector<std::int32_t> awake;                 // places, ascending
+  std::vector<Eigen::Vector3d> acceleration;       // by load, drag and gravity, of each carrier that is awake [m/s^2]
+  std::vector<double> margin;                      // how far a carrier may leave its straight course in this step [m]
+  std::vector<std::uint8_t> at_wall;               // may touch a wall in this step
+  std::vector<std::array<std::int32_t, 2>> pairs;  // may touch each other in this step; the first is awake
+  std::vector<std::vector<std::array<std::int32_t, 2>>> part_pairs;  // found by each part of the awake carriers
+  std::vector<double> blows;                        // how far each pair's meeting may change both courses together [m]
   std::vector<std::int32_t> parent;                 // union-find
   std::vector<std::int32_t> cluster_of;             // -1: free flight
   std::vector<std::int32_t> local_of;               // place in its cluster

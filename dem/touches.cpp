@@ -70,7 +70,7 @@ Rules::Rules(const Models& models)
 
 void Cluster::clear() {
   bodies.clear(), records.clear(), touches.clear();
-  springs.clear(), pulls.clear(), pairs.clear(), constants.clear();
+  springs.clear(), alive.clear(), pulls.clear(), pairs.clear(), constants.clear();
   begun.clear(), ended.clear();
   body_steps = 0;
   largest_overlap = 0.0;
@@ -122,6 +122,7 @@ std::int32_t add_touch(std::int32_t a, std::int32_t b, const Rules& rules, Clust
   s.pair[l] = touch.pair;
   if (touch.pair != s.pair[0]) s.one_pair = 0;
   s.phase[l] = lane::free;
+  cluster.alive.push_back(0);
   cluster.pulls[index].share = cluster.constants[touch.pair].share;
   s.idle_until = s.latest = 0.0;
   return index;
@@ -147,6 +148,7 @@ void restore_contact(std::int32_t index, const Contact& memory, const Rules& rul
   Springs& s = cluster.block(index);
   const int l = index % Springs::lanes;
   s.phase[l] = static_cast<double>(memory.phase);
+  cluster.alive[index] = 1;
   s.stiffness[l] = memory.stiffness, s.offset[l] = memory.offset;
   s.slip_stiffness[l] = memory.slip_stiffness, s.knee_stiffness[l] = memory.knee_stiffness;
   for (int d = 0; d < 3; ++d) s.slip[d][l] = memory.slip[d];

@@ -51,4 +51,12 @@ TEST(LiftOff, TheSentenceNamesBothSpeeds) {
   EXPECT_NE(text.find("9.4"), std::string::npos) << text;
 }
 
+TEST(LiftOff, WithoutAdhesionTheSentenceNamesNoThreshold) {
+  Carriers c;
+  c.diameter = 70e-6, c.parcel = 10;
+  coupling::Models m = models(3.6e-3, dem::ParcelScaling::ddpm);
+  m.carriers.wall.adhesion = dem::NoAdhesion{};
+  EXPECT_EQ(parcel_bias(c, m), "one tracked body stands for 10 carriers");
+}
+
 }  // namespace puffin::cases

@@ -111,6 +111,25 @@ TEST(Jkr, SlowPullsEndAtThreeAndFourPiGammaR) {
   }
 }
 
+// A case may place a carrier so that it hangs: loaded at rest it stays where it is, to the nanometre, up to its
+// pull-off force; beyond, it is F t^2/(2 m) = 6e-4 m away after 0.5 ms.
+TEST(Jkr, ACarrierPlacedOnAWallHoldsUpToItsPullOffForceWhateverTheModulus) {
+  const Adhesion laws[] = {Jkr{3.6e-3, {}, {}}, Dmt{3.6e-3, 4e-10, {}, {}}};
+  const double forces[] = {1.1875e-6, 1.5834e-6};
+  for (int law = 0; law < 2; ++law)
+    for (const double young : {1e7, 24e9})
+      for (const double part : {0.1, 0.98, 1.02}) {
+        Scene s = sticky_floor(laws[law], young, 0.6);
+        s.add(lactose(0, {0, 0, radius}));
+        s.loads[0].force = {0, 0, part * forces[law]};
+        s.run(0.5e-3, 5e-6);
+        if (part < 1.0)
+          EXPECT_NEAR(s.x(0).z(), radius, 1e-9) << law << " " << young << " " << part;
+        else
+          EXPECT_GT(s.x(0).z(), 2.0 * radius) << law << " " << young;
+      }
+}
+
 // Catalogue D11: e = sqrt(1 - (v_s/v)^2). The loss is right within 1 % (sub-steps of a twentieth of delta_c on a force
 // that changes by F_c over it): at v/v_s = 1.1 that is 0.5 % of v_s^2/v^2 / e^2 = 2.5 % of e.
 TEST(Jkr, ReboundsAsThorntonAndNing) {

@@ -4,6 +4,7 @@
 // usage: coupled_run THREADS     prints what happened; exits 1 if something that is to be watched did not
 
 #include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/task_arena.h>
 
 #include <cmath>
 #include <cstdio>
@@ -17,9 +18,9 @@
 
 using namespace puffin;
 
-int main(int argc, char** argv) try {
-  const int threads = argc > 1 ? std::atoi(argv[1]) : 2;
-  const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, threads);
+namespace {
+
+int run(int threads) {
   const auto sim = cases::build(cases::parse_case(coarse_dose(), PUFFIN_SOURCE_DIR "/cases/small-dose.toml"));
   coupling::State& s = sim->state;
   const coupling::Health health(sim->models, s);
@@ -44,6 +45,15 @@ int main(int argc, char** argv) try {
       books.in_air / books.loaded, books.error());
   const bool all_awake = contacts > 0.0 && books.in_air > 0.0 && std::abs(books.error()) < 1e-12;
   return all_awake ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+  const int threads = argc > 1 ? std::atoi(argv[1]) : 2;
+  const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, threads);
+  oneapi::tbb::task_arena arena(threads);  // of itself oneTBB uses no more threads than there are processors
+  return arena.execute([&] { return run(threads); });
 } catch (const std::exception& e) {
   std::fprintf(stderr, "%s\n", e.what());
   return 1;

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cases/check_boundaries.hpp"
+#include "cases/check_places.hpp"
 #include "cases/check_tables.hpp"
 #include "cases/micromodel_file.hpp"
 #include "cases/write_case.hpp"
@@ -16,6 +17,19 @@
 namespace puffin::tools {
 namespace {
 
+/// Places outside the geometry are problems; what starts deep in a wall is a warning.
+void check_places(const cases::Case& c, const cases::Surface& surface, cases::Assessment& assessment) {
+  const bool lists = c.carriers && !c.carriers->list.empty();
+  const bool places = !c.output.probes.empty() || !c.output.planes.empty() || !c.output.fields.empty();
+  if (!lists && !places) return;
+  const lbm::geometry::TriangleTree tree(surface.mesh);
+  auto problems = cases::carrier_place_problems(c, tree);
+  if (assessment.lattice)
+    for (auto& p : cases::output_place_problems(c, tree, assessment.lattice->dx)) problems.push_back(std::move(p));
+  if (!problems.empty()) throw cases::CaseError(std::move(problems));
+  for (auto& w : cases::carrier_place_warnings(c, tree)) assessment.warnings.push_back(std::move(w));
+}
+
 int check_case(const CaseArguments& a) {
   const cases::Case c = a.read();
   if (c.fines && !c.fines->micromodels.empty()) cases::read_micromodels(c.fines->micromodels);
@@ -24,6 +38,7 @@ int check_case(const CaseArguments& a) {
     throw cases::CaseError(std::move(problems));
   if (auto problems = cases::table_problems(c); !problems.empty()) throw cases::CaseError(std::move(problems));
   cases::Assessment assessment = cases::assess(c, surface);
+  check_places(c, surface, assessment);
   for (const lbm::geometry::Defect& d : surface.defects) assessment.warnings.push_back(d.kind + ": " + d.message);
   const std::vector<std::string> assumed = cases::assumptions(c);
   if (a.json) {

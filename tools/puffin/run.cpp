@@ -3,12 +3,14 @@
 #include "tools/puffin/run.hpp"
 
 #include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/task_arena.h>
 #include <xmmintrin.h>
 
 #include <chrono>
 #include <thread>
 
 #include "cases/case_error.hpp"
+#include "cases/check_places.hpp"
 #include "cases/write_case.hpp"
 #include "tools/output/render.hpp"
 #include "tools/output/report.hpp"
@@ -41,23 +43,15 @@ std::unique_ptr<cases::Simulation> built(const cases::Case& c, const std::filesy
   throw cases::CaseError({{file.string(), 0, 0, "", e.what()}});
 }
 
-}  // namespace
-
-int run_command(const RunOptions& options) {
-  const auto start = std::chrono::steady_clock::now();
+/// The run on the threads of the arena that it is called in.
+int run_here(const RunOptions& options, cases::Case c, int threads, std::chrono::steady_clock::time_point start) {
   const auto seconds = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
-  _mm_setcsr(_mm_getcsr() | 0x8040);  // flush denormals: air at rest would otherwise compute with them
-  set_up_log(options.quiet);
-  cases::Case c = cases::read_case(options.case_file, options.sets, options.preset);
-  const int wanted = options.threads > 0 ? options.threads : c.numerics.threads;
-  const int threads = wanted > 0 ? wanted : static_cast<int>(std::thread::hardware_concurrency());
-  const oneapi::tbb::global_control control(oneapi::tbb::global_control::max_allowed_parallelism,
-                                            static_cast<std::size_t>(threads));
   const auto simulation = built(c, options.case_file);
   cases::Simulation& s = *simulation;
   // Only now: the reference speed, and with it the time step, belong to the whole run that the case describes.
   c.stop.time = s.description.stop.time = std::min(c.stop.time, options.until);
   PointReader(s).check_places(s);
+  for (const std::string& text : cases::carrier_place_warnings(s.description, *s.tree)) log_warning(text);
   const auto out = options.out.empty() ? std::nullopt : std::optional(options.out);
   const output::OutputFolder folder(out, c.name, options.resume);
   announce(folder, c);
@@ -93,6 +87,22 @@ int run_command(const RunOptions& options) {
   output::write_status(folder.file("status.json"), last);
   if (options.json) print(output::summary_json(summary));
   return ending.code;
+}
+
+}  // namespace
+
+int run_command(const RunOptions& options) {
+  const auto start = std::chrono::steady_clock::now();
+  _mm_setcsr(_mm_getcsr() | 0x8040);  // flush denormals: air at rest would otherwise compute with them
+  set_up_log(options.quiet);
+  cases::Case c = cases::read_case(options.case_file, options.sets, options.preset);
+  const int wanted = options.threads > 0 ? options.threads : c.numerics.threads;
+  const int threads = wanted > 0 ? wanted : static_cast<int>(std::thread::hardware_concurrency());
+  const oneapi::tbb::global_control control(oneapi::tbb::global_control::max_allowed_parallelism,
+                                            static_cast<std::size_t>(threads));
+  // Left alone, oneTBB uses no more threads than there are processors, whatever was asked for.
+  oneapi::tbb::task_arena arena(threads);
+  return arena.execute([&] { return run_here(options, std::move(c), threads, start); });
 }
 
 }  // namespace puffin::tools

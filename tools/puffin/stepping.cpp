@@ -6,6 +6,7 @@
 #include "tools/output/report/live_page.hpp"
 #include "tools/puffin/console.hpp"
 #include "tools/puffin/exit_codes.hpp"
+#include "tools/puffin/lattice_limits.hpp"
 
 namespace puffin::tools {
 
@@ -166,6 +167,11 @@ Ending Stepping::run() {
 }
 
 void Stepping::finish(const Ending& ending) {
+  if (ending.code == ok)
+    for (const std::string& text : lattice_warnings(s_)) {
+      memory_.warnings.push_back(text);
+      log_warning(text);
+    }
   recorder_->finish(s_);
   progress_->update(*recorder_, memory_.warnings, true);
   progress_->finish();

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "cases/air_assumption.hpp"
 #include "cases/derived.hpp"
 #include "cases/lift_off.hpp"
 #include "coupling/statistics.hpp"
@@ -173,9 +174,7 @@ std::vector<std::string> assumptions(const cases::Simulation& s) {
   if (s.models.fines) list.push_back("micro-models: " + s.models.fines->source);
   if (s.description.carriers && s.description.carriers->parcel > 1)
     list.push_back("parcels: " + cases::parcel_bias(*s.description.carriers, s.models));
-  list.push_back(
-      "air: Smagorinsky large-eddy simulation without inlet turbulence and without a wall model; the founding "
-      "study used a k-epsilon model");
+  if (std::string air = cases::air_assumption(s.description); !air.empty()) list.push_back(std::move(air));
   return list;
 }
 

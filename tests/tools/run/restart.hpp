@@ -48,6 +48,12 @@ class Child {
   void send(int signal) const { kill(process_, signal); }
   /// From now on no file of it may grow beyond this.
   void limit_file_size(const rlimit& limit) const { prlimit(process_, RLIMIT_FSIZE, &limit, nullptr); }
+  /// Threads that it has now; 0 once it has ended.
+  int threads() const {
+    std::error_code error;
+    const std::filesystem::directory_iterator tasks("/proc/" + std::to_string(process_) + "/task", error), end;
+    return error ? 0 : static_cast<int>(std::distance(tasks, end));
+  }
   /// True if it ended by itself within the time.
   bool ends_within(std::chrono::milliseconds time) {
     for (const auto end = std::chrono::steady_clock::now() + time; std::chrono::steady_clock::now() < end;) {
