@@ -227,8 +227,10 @@ double largest_eddy(const FaceFluxes& fluxes) {
   return largest;
 }
 
-Plan plan(const Update& u, const StepLimit& limit, double eddy, double remaining) {
-  double longest = std::min(limit.steps, remaining);
+/// `share`: no sub-step is longer. It comes from the whole flow, so that a scalar's steps do not depend on where other
+/// scalars are.
+Plan plan(const Update& u, const StepLimit& limit, double eddy, double share, double remaining) {
+  double longest = std::min({limit.steps, share, remaining});
   Plan p{longest, false, std::vector<bool>(u.fields.scalars(), false)};
   for (int k = 0; k < u.fields.scalars(); ++k) {
     const ScalarLaw& law = u.options.scalar[k];
@@ -263,7 +265,7 @@ double advance_scalars(const Rows& rows, const FaceFluxes& fluxes, double steps,
   const double eddy = largest_eddy(fluxes);
   budget.air_mismatch = std::max(budget.air_mismatch, air_mismatch(u));
   std::vector<LimitFound> limits;
-  double allowed = 0.0;
+  double allowed = 0.0, share = steps;
   const auto found = [&] { return limits.empty() ? max_steps(rows, fluxes, options.cfl) : allowed; };
   for (double elapsed = 0.0; elapsed < steps;) {
     if (!mark_busy_runs(rows, all, fields)) return found();
@@ -271,10 +273,11 @@ double advance_scalars(const Rows& rows, const FaceFluxes& fluxes, double steps,
     if (elapsed == 0.0) {  // of all runs, for the caller
       find_limits(rows, fluxes, fluxes.density, options.cfl, {}, limits);
       allowed = strictest(limits, options.cfl, {}).steps;
+      share = steps / std::max(1.0, std::ceil(steps / allowed * (1.0 - 1e-12)));
     } else {
       find_limits(rows, fluxes, fields.air, options.cfl, fields.work.computed, limits);
     }
-    Plan p = plan(u, strictest(limits, options.cfl, fields.work.computed), eddy, steps - elapsed);
+    Plan p = plan(u, strictest(limits, options.cfl, fields.work.computed), eddy, share, steps - elapsed);
     if (p.any_implicit && !all) {  // lines carry it everywhere at once
       all = true;
       continue;

@@ -37,7 +37,7 @@ struct ScalarOptions {
   std::vector<ScalarLaw> scalar;
   double cfl = 0.8;  // largest part of a cell's air that leaves it in one sweep, in (0, 1)
   /// Leave out runs that hold nothing (less than 1e-30 of the scalar) and have no neighbour that does. Changes nothing
-  /// else as long as an update is no longer than max_steps; beyond, the flow where the scalars are sets the sub-steps.
+  /// else: the sub-steps come from the whole flow.
   bool skip_empty = true;
 };
 

@@ -105,7 +105,9 @@ TEST(DryScenes, D07BouncesLowerByTheSquareOfRestitution) {
     EXPECT_NEAR(r.contacts[n].time_start, time, 2e-3 * time);
     time += 2.0 * std::pow(0.9, n + 1) * std::sqrt(2.0 * h / g);
   }
-  EXPECT_NEAR(r.x(0).z(), 0.01, 1e-5);
+  // At rest the weight takes a tenth of the allowed overlap of 1e-4 m (first_stiffness()); at most a tenth of that
+  // still swings after the last bounces.
+  EXPECT_NEAR(r.x(0).z(), 0.01 - 1e-5, 1e-6);
 }
 
 TEST(DryScenes, D08RollsAtFiveSeventhsAndD09RollsOrSlips) {
