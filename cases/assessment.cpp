@@ -76,6 +76,24 @@ void warn(const Case& c, Assessment& a) {
         1e3 * i.hydraulic_diameter / fewest_cells);
     say(text);
   }
+  // A slow, viscous flow wants pressures that the weakly compressible air answers with its density.
+  constexpr double tolerable = 0.05, good = 0.02;
+  for (const InletNumbers& i : a.inlets) {
+    if (i.reynolds > turbulent || !(i.largest_mean_speed > 0.0) || !(a.reference_speed > 0.0)) continue;
+    const double length = a.volume / i.area;
+    const double drop = 32.0 * c.air.viscosity * i.largest_mean_speed * length /
+                        (i.hydraulic_diameter * i.hydraulic_diameter);  // of a pipe
+    const double speed = c.numerics.lattice_speed / a.reference_speed;
+    const double range = 3.0 * drop / c.air.density * speed * speed;
+    if (range < tolerable) continue;
+    char text[256];
+    std::snprintf(
+        text, sizeof text,
+        "friction takes about %.3g Pa (Poiseuille), which changes the density by %.0f %% from end to end: take a "
+        "lattice_speed of at most %.2g",
+        drop, 100.0 * range, c.numerics.lattice_speed * std::sqrt(good / range));
+    say(text);
+  }
   if (a.thin_walls > 0)
     say(std::to_string(a.thin_walls) +
         " links between cells cross a wall thinner than a cell; the flow is stopped there half-way: lower dx");
