@@ -12,7 +12,7 @@ namespace puffin::coupling {
 
 namespace {
 
-constexpr double closed = std::numeric_limits<double>::infinity();  // instead of a rise: nothing beyond the face
+constexpr double no_rise = std::numeric_limits<double>::infinity();  // instead of a rise: nothing beyond the face
 
 /// Calls visit(slot, run) for every active cell, chunk by chunk in parallel.
 template <class Visit>
@@ -93,22 +93,22 @@ void update_drift(const lbm::Rows& rows, const lbm::FaceFluxes& fluxes, const Sc
     const auto& open = fluxes.open[d];
     for_each_cell(rows, [&](std::ptrdiff_t s, const lbm::Run& run) {
       const std::ptrdiff_t low = s + lbm::offset_low(run, d), high = s + lbm::offset_high(run, d);
-      up[s] = open[s] == 1 ? density[high] - density[s] : closed;
-      down[s] = open[low] == 1 ? density[s] - density[low] : closed;
+      up[s] = open[s] == 1 ? density[high] - density[s] : no_rise;
+      down[s] = open[low] == 1 ? density[s] - density[low] : no_rise;
     });
     mirror(rows, up);
     mirror(rows, down);
     for_each_cell(rows, [&](std::ptrdiff_t s, const lbm::Run& run) {
-      const bool above = up[s] != closed, below = down[s] != closed;
+      const bool above = up[s] != no_rise, below = down[s] != no_rise;
       double rise = 0.0;  // of the density over one cell
       if (above && below) {
         rise = 0.5 * (up[s] + down[s]);
       } else if (above) {  // a wall below: the rise one face further inside, if there is one
         const double inside = up[s + lbm::offset_high(run, d)];
-        rise = inside != closed ? inside : up[s];
+        rise = inside != no_rise ? inside : up[s];
       } else if (below) {
         const double inside = down[s + lbm::offset_low(run, d)];
-        rise = inside != closed ? inside : down[s];
+        rise = inside != no_rise ? inside : down[s];
       }
       const double push = rise * per_difference / density[s] + drift.gravity[d];
       velocity[d][s] += blend * (drift.response_time * push - velocity[d][s]);

@@ -150,7 +150,7 @@ Summary synthetic_summary() {
   s.pressure = PressureSummary{{1950, 1900, 2000, 20}, {2610, 2550, 2670, 20}, 0.19, 0.211};
   s.carriers = CarrierSummary{15000, 14640, 360, 0.024, 0.064, 0.0971, 0.2098, 0.13, {}};
   s.fines = {{"L-Base", 0.64, 0.13, 0.022, 0.205, 0.003, 4e-13, {0.996, 0.0039, 1e-4}}};
-  s.collisions = CollisionSummary{231000, 498000, 23, 24, 5.9e-10, 2.1e-13};
+  s.collisions = CollisionSummary{231000, 498000, 23, 24, 5.9e-10, 2.1e-13, {}};
   s.assumptions = {"The leg behind the bend is 4.6 mm wide: the thesis does not give it.",
                    "Micro-models are a surrogate (surface energy 3.6 mJ/m\xC2\xB2)."};
   return s;
