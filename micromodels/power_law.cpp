@@ -1,5 +1,6 @@
 #include "micromodels/power_law.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -15,9 +16,11 @@ PowerLaw::PowerLaw(const std::array<double, 5>& constants, Validity valid) : a_(
 
 namespace {
 
+constexpr double most = 1e30;  // of fines that are all taken at 1: more could overflow, and times no fines be no number
+
 /// A factor of zero takes nothing however steep the branch: 0 times an overflowing power would be no number.
 double branch(double factor, double speed, double exponent) {
-  return factor == 0.0 ? 0.0 : factor * std::pow(speed, exponent);
+  return factor == 0.0 ? 0.0 : std::min(factor * std::pow(speed, exponent), most);
 }
 
 }  // namespace

@@ -51,6 +51,14 @@ TEST(PowerLaw, says_where_it_is_valid) {
   EXPECT_FALSE(valid(law).contains(21.0));
 }
 
+// 90^570 > 1e308: a share that overflows still takes nothing of no fines (inf times 0 would be no number).
+TEST(PowerLaw, stays_finite_where_its_power_overflows) {
+  const PowerLaw law({1.0, 1.0, 0.1, 1e-4, 570.0}, {0.0, 80.0});
+  EXPECT_TRUE(std::isfinite(law.value(90.0)));
+  EXPECT_EQ(law.value(90.0) * 0.0, 0.0);
+  EXPECT_GT(law.value(90.0), 1.0);
+}
+
 // 0 v^A = 0 for every A, though v^A overflows (2^2000 > 1e308).
 TEST(PowerLaw, takes_nothing_with_a_factor_of_zero_however_steep) {
   EXPECT_EQ(PowerLaw({0.0, 2000.0, 3.0, 0.0, 2000.0}).value(2.0), 0.0);
