@@ -7,6 +7,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "cases/compressibility.hpp"
 #include "cases/inlet_profile.hpp"
 #include "cases/room.hpp"
 #include "cases/units.hpp"
@@ -76,24 +77,6 @@ void warn(const Case& c, Assessment& a) {
         1e3 * i.hydraulic_diameter / fewest_cells);
     say(text);
   }
-  // A slow, viscous flow wants pressures that the weakly compressible air answers with its density.
-  constexpr double tolerable = 0.05, good = 0.02;
-  for (const InletNumbers& i : a.inlets) {
-    if (i.reynolds > turbulent || !(i.largest_mean_speed > 0.0) || !(a.reference_speed > 0.0)) continue;
-    const double length = a.volume / i.area;
-    const double drop = 32.0 * c.air.viscosity * i.largest_mean_speed * length /
-                        (i.hydraulic_diameter * i.hydraulic_diameter);  // of a pipe
-    const double speed = c.numerics.lattice_speed / a.reference_speed;
-    const double range = 3.0 * drop / c.air.density * speed * speed;
-    if (range < tolerable) continue;
-    char text[256];
-    std::snprintf(
-        text, sizeof text,
-        "friction takes about %.3g Pa (Poiseuille), which changes the density by %.0f %% from end to end: take a "
-        "lattice_speed of at most %.2g",
-        drop, 100.0 * range, c.numerics.lattice_speed * std::sqrt(good / range));
-    say(text);
-  }
   if (a.thin_walls > 0)
     say(std::to_string(a.thin_walls) +
         " links between cells cross a wall thinner than a cell; the flow is stopped there half-way: lower dx");
@@ -138,6 +121,11 @@ Assessment assess(const Case& given, const Surface& s) {
   if (c.air.model == AirModel::lbm) {
     require_room(c, s, std::numeric_limits<double>::infinity());
     a.reference_speed = reference_speed(c, area_of);
+    if (a.reference_speed > 0.0) {
+      const LatticeSpeed speed = lattice_speed(c, s, a.reference_speed);
+      c.numerics.lattice_speed = speed.value;
+      if (!speed.warning.empty()) a.warnings.push_back(speed.warning);
+    }
     a.lattice = lattice_numbers(c, cell_size(c.numerics, s.volume), a.reference_speed, area_of);
     const std::vector<std::string> openings = openings_of(c);
     geometry::VoxelizeOptions options;

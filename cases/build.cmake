@@ -6,6 +6,7 @@ set(PUFFIN_BUILD_SOURCES
   build_fines.cpp
   check_boundaries.cpp
   check_tables.cpp
+  compressibility.cpp
   initial_air.cpp
   inlet_profile.cpp
   opening.cpp

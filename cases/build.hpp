@@ -24,6 +24,8 @@ struct Simulation {
   lbm::geometry::Pockets pockets;
   double dx = 0.0;                                // [m]
   double reference_speed = 0.0;                   // [m/s]
+  double lattice_speed = 0.0;                     // in lattice units: as described, or less (compressibility.hpp)
+  std::vector<std::string> warnings;              // what the run does otherwise than described, or cannot do well
   double dose_mass = 0.0;                         // carriers with their fines [kg]
   std::string dose;                               // one line on how the carriers lie at the start
   std::function<Vec3(const Vec3&)> stored_field;  // velocity [m/s] of another run, air.field = { run = ... }

@@ -6,6 +6,7 @@
 #include "cases/build.hpp"
 #include "cases/build_boundaries.hpp"
 #include "cases/check_boundaries.hpp"
+#include "cases/compressibility.hpp"
 #include "cases/derived.hpp"
 #include "cases/initial_air.hpp"
 #include "cases/opening.hpp"
@@ -210,7 +211,11 @@ void build_air(Simulation& s) {
   }
   if (!(s.reference_speed > 0.0))
     throw std::invalid_argument("nothing sets the speed of the air: give numerics.reference_speed, e.g. \"1 m/s\"");
-  const LatticeNumbers numbers = lattice_numbers(c, s.dx, s.reference_speed, area_of);
+  const LatticeSpeed tamed = lattice_speed(c, s.surface, s.reference_speed);
+  if (!tamed.warning.empty()) s.warnings.push_back(tamed.warning);
+  Case suited = c;
+  suited.numerics.lattice_speed = s.lattice_speed = tamed.value;
+  const LatticeNumbers numbers = lattice_numbers(suited, s.dx, s.reference_speed, area_of);
   rule.reference_dt = numbers.dt;
   rule.reference_speed = s.reference_speed;
   rule.follow = c.numerics.time_step == cases::TimeStepRule::follow_ramp && !c.numerics.reference_speed &&

@@ -77,22 +77,6 @@ TEST_F(Program, CellsTooCoarseForTheJetOfAnInletAreToldWithARemedy) {
   EXPECT_EQ(puffin("check " + l_base + " --json").out.find("for a jet of"), std::string::npos);
 }
 
-// Re = 1.2 * 0.1 * 0.001/1.8e-5 = 6.7 in a duct 1 mm wide and 20 mm long: 32 mu U L/D^2 = 1.152 Pa, at 0.1 in lattice
-// units for 0.1 m/s 3 * 1.152/1.2 * 1 = 288 % of the density; 2 % want 0.1 sqrt(0.02/2.88) = 0.0083.
-TEST_F(Program, ADensityThatFrictionWouldChangeIsToldWithARemedy) {
-  const std::string slow = file("slow.toml",
-                                "schema = 1\nname = \"slow\"\n[geometry]\ngenerator = \"duct\"\n[geometry.duct]\n"
-                                "length = \"20 mm\"\nwidth = \"1 mm\"\nheight = \"1 mm\"\n[air]\ndensity = 1.2\n"
-                                "viscosity = 1.8e-5\n[[air.boundary]]\npatch = \"inlet\"\ntype = \"velocity-inlet\"\n"
-                                "velocity = \"0.1 m/s\"\n[[air.boundary]]\npatch = \"outlet\"\n"
-                                "type = \"pressure-outlet\"\n[numerics]\ndx = \"0.2 mm\"\n[stop]\ntime = \"1 ms\"\n");
-  const std::string told = puffin("check " + slow + " --json").out;
-  EXPECT_NE(told.find("about 1.15 Pa"), std::string::npos) << told;
-  EXPECT_NE(told.find("lattice_speed of at most 0.0083"), std::string::npos) << told;
-  EXPECT_EQ(puffin("check " + slow + " --json --set numerics.lattice_speed=0.008").out.find("Poiseuille"),
-            std::string::npos);
-}
-
 TEST_F(Program, AMissingCaseFileEndsWith7) { EXPECT_EQ(puffin("check no/such/case.toml").code, 7); }
 
 TEST_F(Program, ASurfaceWithAHoleEndsWith4) {

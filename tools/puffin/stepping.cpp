@@ -63,6 +63,7 @@ Stepping::Stepping(cases::Simulation& s, const output::OutputFolder& folder, boo
       recorder_ = std::make_unique<Recorder>(s_, folder_, &outputs);
     });
   } else {
+    memory_.warnings = s.warnings;
     recorder_ = std::make_unique<Recorder>(s_, folder_);
   }
   progress_ = std::make_unique<Progress>(s, folder, quiet);

@@ -18,7 +18,7 @@ namespace puffin::tools {
 struct RunMemory {
   double wall_clock = 0.0;            // [s] of the parts before this one
   std::int32_t retreats = 0;          // from failures
-  std::vector<std::string> warnings;  // one a retreat
+  std::vector<std::string> warnings;  // of the start, then one a retreat
 };
 
 /// How the loop came to its end.

@@ -171,6 +171,7 @@ class Company {
       facts.set_up = p.set_up;
       facts.output = p.output;
       facts.threads = threads_;
+      facts.warnings = p.simulation->warnings;
       output::Summary summary = summarize(*p.simulation, *p.recorder, facts);
       summary.assumptions.push_back("carriers: they do not act on the air, whose flow this run shares with others");
       output::write_summary(p.folder->file("summary.json"), summary);

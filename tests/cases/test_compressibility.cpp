@@ -1,0 +1,93 @@
+// The step that a lattice takes so that its density hardly answers the pressures that a case wants.
+
+#include "cases/compressibility.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/cases/sample_case.hpp"
+
+namespace puffin::cases {
+namespace {
+
+/// A duct 1 mm x 1 mm x 20 mm of air, 0.1 m/s: Re = 1.2 * 0.1 * 0.001/1.8e-5 = 6.7.
+Case narrow_duct() {
+  return parse_case(
+      "schema = 1\nname = \"narrow\"\n[geometry]\ngenerator = \"duct\"\n[geometry.duct]\nlength = \"20 mm\"\n"
+      "width = \"1 mm\"\nheight = \"1 mm\"\n[air]\ndensity = 1.2\nviscosity = 1.8e-5\n"
+      "[[air.boundary]]\npatch = \"inlet\"\ntype = \"velocity-inlet\"\nvelocity = \"0.1 m/s\"\n"
+      "[[air.boundary]]\npatch = \"outlet\"\ntype = \"pressure-outlet\"\n"
+      "[numerics]\ndx = \"0.2 mm\"\n[stop]\ntime = \"1 ms\"\n",
+      "narrow.toml");
+}
+
+// 8 mu U/D = 0.0144 Pa on 80 mm^2 of wall over 1 mm^2 of inlet: 1.152 Pa. At 0.1 for 0.1 m/s the density would change
+// by 3 * 1.152/1.2 * 1 = 2.88; one per cent wants 0.1 sqrt(0.01/2.88). Exact but for rounding.
+TEST(Compressibility, FrictionLowersTheLatticeSpeedAndIsTold) {
+  const Case c = narrow_duct();
+  const Surface s = load_surface(c);
+  EXPECT_NEAR(expected_pressure_difference(c, s), 1.152, 1e-9);
+  const LatticeSpeed speed = lattice_speed(c, s, 0.1);
+  EXPECT_NEAR(speed.value, 0.1 * std::sqrt(0.01 / 2.88), 1e-9);
+  EXPECT_NE(speed.warning.find("1.15 Pa"), std::string::npos) << speed.warning;
+  EXPECT_NE(speed.warning.find("the run takes 0.00589"), std::string::npos) << speed.warning;
+}
+
+TEST(Compressibility, ASpeedThatIsLowEnoughStays) {
+  Case c = narrow_duct();
+  c.numerics.lattice_speed = 0.005;
+  const LatticeSpeed speed = lattice_speed(c, load_surface(c), 0.1);
+  EXPECT_EQ(speed.value, 0.005);
+  EXPECT_EQ(speed.warning, "");
+}
+
+// 60 m/s: Re 4000 is no laminar friction; the pressures are of the order of rho U^2.
+TEST(Compressibility, ATurbulentInletKeepsItsSpeed) {
+  Case c = narrow_duct();
+  c.air.boundaries[0].flow = MeanSpeed{60.0};
+  EXPECT_EQ(lattice_speed(c, load_surface(c), 60.0).value, c.numerics.lattice_speed);
+}
+
+// Plates 1 mm apart, 2 mm of them between periodic sides, 20 mm long: D = 4 * 2 mm^2/(4 mm of edge) = 2 mm, 80 mm^2 of
+// wall over 2 mm^2: 8 * 1.8e-5 * 0.1/0.002 * 40 = 0.288 Pa. Slip walls do not rub.
+TEST(Compressibility, OnlyWallsRub) {
+  const auto boundary = [](const std::string& patch, const std::string& more) {
+    return "[[air.boundary]]\npatch = \"" + patch + "\"\ntype = \"" + more + "\"\n";
+  };
+  Case c = parse_case(
+      "schema = 1\nname = \"plates\"\n[geometry]\ngenerator = \"box\"\n[geometry.box]\n"
+      "x = \"20 mm\"\ny = \"2 mm\"\nz = \"1 mm\"\n[air]\ndensity = 1.2\nviscosity = 1.8e-5\n" +
+          boundary("x-min", "velocity-inlet\"\nvelocity = \"0.1 m/s") + boundary("x-max", "pressure-outlet") +
+          boundary("y-min", "periodic\"\nwith = \"y-max") + "[numerics]\ndx = \"0.2 mm\"\n[stop]\ntime = \"1 ms\"\n",
+      "plates.toml");
+  EXPECT_NEAR(expected_pressure_difference(c, load_surface(c)), 0.288, 1e-9);
+  for (const char* patch : {"z-min", "z-max"}) {
+    Boundary plate;
+    plate.patch = patch, plate.type = BoundaryType::slip;
+    c.air.boundaries.push_back(plate);
+  }
+  EXPECT_EQ(expected_pressure_difference(c, load_surface(c)), 0.0);
+  EXPECT_EQ(lattice_speed(c, load_surface(c), 0.1).value, c.numerics.lattice_speed);
+}
+
+TEST(Compressibility, PressuresGivenAtTwoOpeningsCount) {
+  Case c = narrow_duct();
+  c.air.boundaries[0].type = BoundaryType::pressure_outlet;
+  c.air.boundaries[0].pressure = 5.0;
+  c.air.boundaries[1].pressure = -1.0;
+  EXPECT_EQ(expected_pressure_difference(c, load_surface(c)), 6.0);
+}
+
+// dt = 1e-4 s is 0.05 in lattice units at 0.1 m/s and 0.2 mm: 72 % of the density. The user's step stays.
+TEST(Compressibility, AStepGivenInSecondsStaysWithAWarning) {
+  Case c = narrow_duct();
+  c.numerics.time_step = TimeStepRule::given;
+  c.numerics.time_step_seconds = 1e-4;
+  const LatticeSpeed speed = lattice_speed(c, load_surface(c), 0.1);
+  EXPECT_EQ(speed.value, c.numerics.lattice_speed);
+  EXPECT_NE(speed.warning.find("by 72 %"), std::string::npos) << speed.warning;
+}
+
+}  // namespace
+}  // namespace puffin::cases
