@@ -29,8 +29,8 @@ inline Meeting meet(const Touch& touch, const PairConstants& pair, const Body& a
     m.arm_b = distance - m.arm_a;
   } else {
     m.normal = touch.plane.normal;
-    m.arm_a = m.normal.dot(vec(a.x) - touch.plane.point);
-    m.overlap = a.radius - m.arm_a;
+    m.overlap = a.radius - m.normal.dot(vec(a.x) - touch.plane.point);
+    m.arm_a = a.radius;  // of the true sphere, which hardly flattens; a wall keeps no angular momentum to account for
   }
   return m;
 }
