@@ -55,6 +55,25 @@ TEST_F(AirScene, ADensityThatDiffersTooMuchIsSaidAtTheEnd) {
   EXPECT_NE(text("thick.log").find("numerics.lattice_speed = 0.0"), std::string::npos) << text("thick.log");
 }
 
+// From half a channel below its floor to half a channel above its roof in steps of 0.1 mm: 11 of 21 points are in the
+// air, both walls among them.
+TEST_F(AirScene, ALineThatLeavesTheFluidHasRowsInsideAloneAndIsNamed) {
+  std::string longer = channel;
+  const std::string from = "0.0], to = [0.0015, 3e-5, 0.001], points = 41";
+  longer.replace(longer.find(from), from.size(), "-0.0005], to = [0.0015, 3e-5, 0.0015], points = 21");
+  ASSERT_EQ(run("longer", longer, "--no-report --until 0.1ms"), 0) << text("longer.log");
+  EXPECT_NE(text("longer.log").find("line 'across': 10 of its 21 points lie outside the fluid"), std::string::npos)
+      << text("longer.log");
+  const auto line = table("longer/lines.csv");
+  const auto s = line.numbers("s"), z = line.numbers("z"), u = line.numbers("u");
+  ASSERT_EQ(z.size(), 11U);
+  for (std::size_t n = 0; n < z.size(); ++n) {
+    EXPECT_NEAR(z[n], 1e-4 * static_cast<double>(n), 1e-12);
+    EXPECT_NEAR(s[n], z[n] + 5e-4, 1e-12);
+    EXPECT_TRUE(std::isfinite(u[n]));
+  }
+}
+
 TEST_F(AirScene, InAPeriodicDuctTheWallsTakeTheWholeBodyForce) {
   const std::string duct = R"toml(
 schema = 1
