@@ -154,6 +154,11 @@ line = [{ name = "up", from = [3e-5, 3e-5, 0.0], to = [3e-5, 3e-5, 0.001], point
   const double drag = 1.806e-5 * 1.5e3 * 6.25e-5 * 6.25e-5;  // mu du/dz A
   EXPECT_NEAR(last(force, "patch", "z-min", "fx"), drag, 1e-5 * drag);
   EXPECT_NEAR(last(force, "patch", "z-max", "fx"), -drag, 1e-5 * drag);
+  // No inlet that a step could follow: the lids set it from the start (5 % is the window of follow-ramp).
+  ASSERT_EQ(run("follow", couette, "--no-report --until 1ms --set numerics.time_step=\"follow-ramp\""), 0)
+      << text("follow.log");
+  const double step = 0.025 * 6.25e-5 / std::hypot(1.0, 0.5);
+  EXPECT_NEAR(table("follow/history.csv").numbers("dt").back(), step, 0.05 * step);
 }
 
 // A body force from a table, uniform and linear in time, in a box without walls: u = int f dt / rho exactly.
