@@ -13,6 +13,7 @@
 #include "cases/opening.hpp"
 #include "cases/point_field.hpp"
 #include "cases/table_file.hpp"
+#include "cases/undriven_speed.hpp"
 #include "lbm/geometry/voxel_errors.hpp"
 #include "lbm/markers.hpp"
 
@@ -209,6 +210,11 @@ void build_air(Simulation& s) {
     std::vector<lbm::Boundary> unused;
     describe_patches(c, s.surface, unused, s.models.patches);
     return;
+  }
+  if (!(s.reference_speed > 0.0)) {
+    const EstimatedSpeed estimate = estimated_speed(c, s.surface);
+    s.reference_speed = estimate.value;
+    if (!estimate.warning.empty()) s.warnings.push_back(estimate.warning);
   }
   if (!(s.reference_speed > 0.0))
     throw std::invalid_argument("nothing sets the speed of the air: give numerics.reference_speed, e.g. \"1 m/s\"");
