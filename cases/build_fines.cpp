@@ -99,6 +99,7 @@ void build_drift(Simulation& s) {
   drift.deposits = f.wall_deposition == WallDeposition::inertial;
   drift.walls = walls;
   if (s.models.frozen_air) {
+    for (auto& cell : drift.walls) cell.inside = cell;  // the field is known in the wall's cells too
     coupling::set_frozen_drift(rows, s.models.frozen_air, drift, s.state.fines_drift);
     coupling::add_drift(rows, s.state.routes, s.state.scale, drift, s.state.fines_drift, s.state.fluxes);
   }

@@ -34,6 +34,40 @@ void mirror(const lbm::Rows& rows, std::vector<double>& values) {
   for (const auto& [ghost, cell] : rows.periodic_images()) values[ghost] = values[cell];
 }
 
+std::vector<int> runs_by_slot(const lbm::Rows& rows) {
+  std::vector<int> run_of(rows.slots(), -1);
+  for (std::size_t r = 0; r < rows.runs().size(); ++r)
+    std::fill_n(run_of.begin() + rows.runs()[r].first, rows.runs()[r].count, static_cast<int>(r));
+  return run_of;
+}
+
+FinesDrift::Place place_of(std::ptrdiff_t slot, const lbm::Run& run) {
+  FinesDrift::Place place{slot, {}};
+  for (int d = 0; d < 3; ++d) place.low[d] = slot + lbm::offset_low(run, d);
+  return place;
+}
+
+/// Four times the square of the air's mass flux in a cell.
+double flow_squared(const lbm::FaceFluxes& fluxes, const FinesDrift::Place& p) {
+  double sum = 0.0;
+  for (int d = 0; d < 3; ++d) {
+    const double twice = fluxes.mass[d][p.slot] + fluxes.mass[d][p.low[d]];
+    sum += twice * twice;
+  }
+  return sum;
+}
+
+/// Drift towards its wall [m/s]: settling, and what the air's turning causes.
+double drift_into_wall(const FinesDrift& drift, const DriftVelocity& velocity, const lbm::FaceFluxes& fluxes,
+                       const FinesDrift::WallCell& cell) {
+  const std::ptrdiff_t in = cell.inside.slot;
+  const Eigen::Vector3d settling = drift.response_time * drift.gravity;
+  const Eigen::Vector3d turning = Eigen::Vector3d(velocity[0][in], velocity[1][in], velocity[2][in]) - settling;
+  const double here = flow_squared(fluxes, cell), inside = flow_squared(fluxes, cell.inside);
+  const double slower = here < inside ? here / inside : 1.0;
+  return std::max(0.0, cell.outward.dot(settling + slower * turning));
+}
+
 }  // namespace
 
 double response_time(double diameter, double density, double viscosity) {
@@ -47,6 +81,7 @@ std::vector<FinesDrift::WallCell> find_wall_cells(const lbm::Rows& rows, const l
                                                   const std::vector<char>& opening) {
   std::vector<FinesDrift::WallCell> cells;
   std::vector<lbm::geometry::Feature> found;
+  const std::vector<int> run_of = runs_by_slot(rows);
   for (const lbm::Run& run : rows.runs())
     for (std::ptrdiff_t s = run.first; s < run.first + run.count; ++s) {
       std::array<Eigen::Vector3d, 6> closed;
@@ -66,9 +101,15 @@ std::vector<FinesDrift::WallCell> find_wall_cells(const lbm::Rows& rows, const l
       const std::size_t first = cells.size();  // of this cell, the nearest wall first
       for (const auto& wall : found) {
         if (wall.distance > found.front().distance + 0.75 * rows.dx()) break;
-        FinesDrift::WallCell cell{s, tree.mesh().area_vector(wall.triangle).normalized(), 0.0, wall.triangle};
+        const FinesDrift::Place here = place_of(s, run);
+        FinesDrift::WallCell cell{here, tree.mesh().area_vector(wall.triangle).normalized(), 0.0, wall.triangle, here};
         if (wall.distance > 1e-3 * rows.dx() && (wall.point - centre).dot(cell.outward) > 0.0)
           cell.outward = (wall.point - centre) / wall.distance;
+        const Eigen::Vector3d in = (centre - 1.5 * rows.dx() * cell.outward - rows.origin()) / rows.dx();
+        const std::ptrdiff_t further =
+            rows.active_slot(static_cast<int>(std::lround(in[0])), static_cast<int>(std::lround(in[1])),
+                             static_cast<int>(std::lround(in[2])));
+        if (further >= 0) cell.inside = place_of(further, rows.runs()[run_of[further]]);
         cells.push_back(cell);
       }
       for (int n = 0; n < count; ++n) {
@@ -146,8 +187,7 @@ void add_drift(const lbm::Rows& rows, const lbm::FluxRoutes& routes, const Scale
   if (!drift.deposits) return;
   fluxes.sinks.clear();
   for (const FinesDrift::WallCell& cell : drift.walls) {
-    const Eigen::Vector3d v(velocity[0][cell.slot], velocity[1][cell.slot], velocity[2][cell.slot]);
-    const double rate = std::max(0.0, scale.velocity_lu(v.dot(cell.outward))) * cell.area;
+    const double rate = scale.velocity_lu(drift_into_wall(drift, velocity, fluxes, cell)) * cell.area;
     if (!fluxes.sinks.empty() && fluxes.sinks.back().slot == cell.slot)
       fluxes.sinks.back().rate += rate;  // a corner
     else

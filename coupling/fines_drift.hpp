@@ -22,22 +22,24 @@ double response_time(double diameter, double density, double viscosity);
 /// Source: J. Ferry & S. Balachandar, Int. J. Multiph. Flow 27, 1199 (2001). Valid for Stokes numbers (tau over the
 /// time in which the air turns) below about 0.2: the errors beyond have not been measured.
 ///
-/// On the lattice Du/Dt is taken as -grad p/rho, which differs by the viscous force alone: in the boundary layer of a
-/// wall, where the air stops, grad p is still that of the flow outside, and so is the drift. Fines cross such layers
-/// by their inertia where they are thinner than the stopping distance; that is what the wall flux here assumes, and
-/// what a gradient of the resolved velocity would leave to the cell size. The drift follows its cause with the delay
-/// tau, so that sound does not move the fines.
+/// On the lattice Du/Dt is taken as -grad p/rho, which differs by the viscous force alone. The drift follows its cause
+/// with the delay tau, so that sound does not move the fines.
 struct FinesDrift {
   double response_time = 0.0;                         // tau [s]
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  // [m/s^2]
   bool deposits = false;                              // walls take what drifts into them, else they hold it off
+  /// A cell, and the slots of its neighbours in -x, -y, -z.
+  struct Place {
+    std::ptrdiff_t slot = 0;
+    std::array<std::ptrdiff_t, 3> low{};
+  };
   /// A cell with a closed face: where its wall is, and how much of it [dx^2]: the sum over the closed faces of the part
   /// that looks along the wall's normal, so that the cells' areas add up to that of the true surface.
-  struct WallCell {
-    std::ptrdiff_t slot = 0;
+  struct WallCell : Place {
     Eigen::Vector3d outward = Eigen::Vector3d::Zero();
     double area = 0.0;
     int triangle = -1;
+    Place inside;  // the cell 1.5 dx from this one's centre, away from the wall; itself where there is none
   };
   std::vector<WallCell> walls;
 };
@@ -53,7 +55,7 @@ std::vector<FinesDrift::WallCell> find_wall_cells(const lbm::Rows& rows, const l
 
 /// The drift `seconds` later: v <- v + (1 - exp(-seconds/tau)) (tau (grad p/rho + g) - v), from the lattice's density.
 /// A cell beside a closed face takes the gradient one face further inside: its own density carries the steps of a
-/// staircase of cells, of some per cent of the dynamic pressure, of which the sinks of add_drift() would take one sign.
+/// staircase of cells, of some per cent of the dynamic pressure.
 /// An empty `velocity` starts at rest.
 void update_drift(const lbm::Rows& rows, const lbm::FaceFluxes& fluxes, const Scale& scale, const FinesDrift& drift,
                   double seconds, DriftVelocity& velocity);
@@ -63,7 +65,13 @@ void set_frozen_drift(const lbm::Rows& rows, const std::function<Eigen::Vector3d
                       const FinesDrift& drift, DriftVelocity& velocity);
 
 /// Sets the drift through the open faces (openings have the air's flux alone), and the sinks of the walls:
-/// rate = max(v . n, 0) area, v of the cell beside the wall.
+/// rate = max(v . n, 0) area.
+///
+/// Of v the part that the air's turning causes is taken from the cell `inside`, times (u/u_inside)^2 <= 1: normal to a
+/// wall the air turns as u^2 times its curvature, and slower air beside the wall throws less at it. What the drift
+/// carries into that layer and the wall does not take, stays there until the air takes it away. (Fines do not cross the
+/// layer at the speed of the flow outside: they forget it within tau times the drift, some micrometres, of a layer of
+/// 100.)
 void add_drift(const lbm::Rows& rows, const lbm::FluxRoutes& routes, const Scale& scale, const FinesDrift& drift,
                const DriftVelocity& velocity, lbm::FaceFluxes& fluxes);
 

@@ -1,5 +1,5 @@
 // Killed and resumed, with what the other restart tests do not have: walls as partly solid cells, walls as markers, the
-// carriers' volume in the air's equations, and a closed box whose mass is kept.
+// carriers' volume in the air's equations, fines with inertia, and a closed box whose mass is kept.
 
 #include "tests/tools/run/restart.hpp"
 #include "tests/tools/run/small_dose.hpp"
@@ -61,6 +61,7 @@ TEST_P(RestartScenes, KilledTwiceARunEndsAsIfNothingHadHappened) {
 const Scene scenes[] = {
     {"psm", "", {"numerics.wall=\"psm\""}},
     {"ibm", "", {"numerics.wall=\"ibm\""}},
+    {"inertial", "", {"fines.wall_deposition=\"inertial\""}},
     {"averaged", "", {"carriers.volume_fraction=\"averaged\""}},
     {"closed", "tests/soak/soak.toml", {"stop.time=\"13 ms\"", "output.checkpoint.keep=2"}},
 };
