@@ -10,6 +10,7 @@
 #include "cases/compressibility.hpp"
 #include "cases/inlet_profile.hpp"
 #include "cases/room.hpp"
+#include "cases/undriven_speed.hpp"
 #include "cases/units.hpp"
 #include "cases/untagged_openings.hpp"
 #include "lbm/geometry/voxel_report.hpp"
@@ -121,6 +122,11 @@ Assessment assess(const Case& given, const Surface& s) {
   if (c.air.model == AirModel::lbm) {
     require_room(c, s, std::numeric_limits<double>::infinity());
     a.reference_speed = reference_speed(c, area_of);
+    if (!(a.reference_speed > 0.0)) {
+      const EstimatedSpeed estimate = estimated_speed(c, s);
+      a.reference_speed = estimate.value;
+      if (!estimate.warning.empty()) a.warnings.push_back(estimate.warning);
+    }
     if (a.reference_speed > 0.0) {
       const LatticeSpeed speed = lattice_speed(c, s, a.reference_speed);
       c.numerics.lattice_speed = speed.value;

@@ -12,4 +12,5 @@ set(PUFFIN_BUILD_SOURCES
   opening.cpp
   point_field.cpp
   room.cpp
-  settle.cpp)
+  settle.cpp
+  undriven_speed.cpp)

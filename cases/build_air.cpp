@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <stdexcept>
 
 #include "cases/assessment.hpp"
@@ -12,6 +13,7 @@
 #include "cases/opening.hpp"
 #include "cases/point_field.hpp"
 #include "cases/table_file.hpp"
+#include "cases/undriven_speed.hpp"
 #include "lbm/geometry/voxel_errors.hpp"
 #include "lbm/markers.hpp"
 
@@ -209,6 +211,11 @@ void build_air(Simulation& s) {
     describe_patches(c, s.surface, unused, s.models.patches);
     return;
   }
+  if (!(s.reference_speed > 0.0)) {
+    const EstimatedSpeed estimate = estimated_speed(c, s.surface);
+    s.reference_speed = estimate.value;
+    if (!estimate.warning.empty()) s.warnings.push_back(estimate.warning);
+  }
   if (!(s.reference_speed > 0.0))
     throw std::invalid_argument("nothing sets the speed of the air: give numerics.reference_speed, e.g. \"1 m/s\"");
   const LatticeSpeed tamed = lattice_speed(c, s.surface, s.reference_speed);
@@ -221,13 +228,10 @@ void build_air(Simulation& s) {
   rule.follow = c.numerics.time_step == cases::TimeStepRule::follow_ramp && !c.numerics.reference_speed &&
                 largest_mean_speed(c.air, c.stop.time, area_of) > 0.0;
   // Areas are sums over thousands of triangles: find them once.
-  std::vector<std::pair<Boundary, double>> inlets;
-  for (const Boundary& b : c.air.boundaries)
-    if (b.type == BoundaryType::velocity_inlet) inlets.emplace_back(b, s.surface.area_of(b.patch));
-  rule.speed = [inlets](double t) {
-    double speed = 0.0;
-    for (const auto& [b, area] : inlets) speed = std::max(speed, std::abs(mean_speed(b, t, area)));
-    return speed;
+  std::map<std::string, double> areas;
+  for (const Boundary& b : c.air.boundaries) areas[b.patch] = s.surface.area_of(b.patch);
+  rule.speed = [air = c.air, areas](double t) {
+    return followed_speed(air, t, [&](const std::string& patch) { return areas.at(patch); });
   };
   s.models.body_force = from_file(c, "air.body_force", [&] { return body_force(c); });
   build_lattice(numbers, s);

@@ -40,6 +40,15 @@ double largest_mean_speed(const Air& air, double end, const AreaOf& area_of) {
   return largest;
 }
 
+double followed_speed(const Air& air, double t, const AreaOf& area_of) {
+  double speed = air.initial_velocity.norm();
+  for (const Boundary& b : air.boundaries) {
+    const double area = std::holds_alternative<FlowRate>(b.flow) ? area_of(b.patch) : 1.0;
+    speed = std::max(speed, std::abs(mean_speed(b, t, area)));
+  }
+  return speed;
+}
+
 double reference_speed(const Case& c, const AreaOf& area_of) {
   if (c.numerics.reference_speed) return *c.numerics.reference_speed;
   double speed = std::max(largest_mean_speed(c.air, c.stop.time, area_of), c.air.initial_velocity.norm());
@@ -71,10 +80,7 @@ LatticeNumbers lattice_numbers(const Case& c, double dx, double reference, const
   n.steps = 0.0;
   for (int i = 0; i < samples; ++i) {
     const double t = (i + 0.5) / samples * c.stop.time;
-    double speed = 0.0;
-    for (const Boundary& b : c.air.boundaries)
-      speed = std::max(speed,
-                       std::abs(mean_speed(b, t, std::holds_alternative<FlowRate>(b.flow) ? area_of(b.patch) : 1.0)));
+    const double speed = followed_speed(c.air, t, area_of);
     const double stretch = std::clamp(reference / std::max(speed, 1e-30), 1.0, 4.0);
     n.dt_largest = std::max(n.dt_largest, n.dt * stretch);
     n.steps += c.stop.time / samples / (n.dt * stretch);

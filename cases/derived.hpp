@@ -24,6 +24,10 @@ double mean_speed(const Boundary& b, double t, double area);
 /// The largest section-mean speed [m/s] of any boundary until `end` [s]: exact, as Q(t) is linear between its rows.
 double largest_mean_speed(const Air& air, double end, const AreaOf& area_of);
 
+/// What the time step may follow [m/s]: the fastest of inlets and moving walls at time t, and of the air at the start,
+/// as what moves then goes on moving.
+double followed_speed(const Air& air, double t, const AreaOf& area_of);
+
 /// The speed that `numerics.lattice_speed` stands for: as given, or the largest section-mean speed until stop.time
 /// (boundaries, the frozen or initial velocity). 0 if nothing moves the air.
 double reference_speed(const Case& c, const AreaOf& area_of);

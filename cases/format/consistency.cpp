@@ -115,7 +115,12 @@ class Checks {
     const bool moving = amplitude || std::any_of(a.boundaries.begin(), a.boundaries.end(), [](const Boundary& b) {
                           return b.flow.index() != 0 || b.profile == Profile::file;
                         });
-    if (a.model == AirModel::lbm && !moving)
+    const auto* force = std::get_if<Vec3>(&a.body_force);
+    const bool driven = force == nullptr || force->norm() > 0.0 || a.initial == InitialField::file ||
+                        std::any_of(a.boundaries.begin(), a.boundaries.end(), [&](const Boundary& b) {
+                          return b.type == BoundaryType::pressure_outlet && b.pressure != 0.0;
+                        });
+    if (a.model == AirModel::lbm && !moving && !driven)
       say("numerics.reference_speed", "nothing in the case says how fast the air will be (no inlet): give a speed");
     if (a.model != AirModel::lbm && !c_.carriers && !c_.fines)
       say("air.model", "without moving air, carriers or fines there is nothing to simulate");

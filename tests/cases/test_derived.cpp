@@ -52,6 +52,22 @@ TEST(Derived, FollowingTheRampSavesSteps) {
   EXPECT_DOUBLE_EQ(n.dt_largest, 4.0 * n.dt);
 }
 
+// The ramp is at 0 then: what moves the air is a lid, or air that moved at the start.
+TEST(Derived, TheStepFollowsWhateverMovesTheAir) {
+  Case c = l_bend_flow();
+  const double ramp = 36e-3 / 60.0 * 0.1 / 0.24 / 10.5e-6;
+  EXPECT_NEAR(followed_speed(c.air, 0.1, inlet_area), ramp, 1e-12 * ramp);
+  EXPECT_DOUBLE_EQ(followed_speed(c.air, 0.0, inlet_area), 0.0);
+  c.air.initial_velocity = {0.0, 3.0, 4.0};
+  EXPECT_DOUBLE_EQ(followed_speed(c.air, 0.0, inlet_area), 5.0);
+  Boundary lid;
+  lid.patch = "lid";
+  lid.type = BoundaryType::moving_wall;
+  lid.flow = Velocity{{0.0, 7.0, 0.0}};
+  c.air.boundaries.push_back(lid);
+  EXPECT_DOUBLE_EQ(followed_speed(c.air, 0.0, inlet_area), 7.0);
+}
+
 TEST(Derived, CellSizeFromANumberOfCells) {
   Numerics n;
   EXPECT_THROW(cell_size(n, 1.0), std::invalid_argument);

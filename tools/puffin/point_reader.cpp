@@ -92,8 +92,9 @@ std::optional<PointReading> PointReader::read(const cases::Simulation& s, const 
   return reading;
 }
 
-void PointReader::check_places(const cases::Simulation& s) const {
-  if (!s.state.air) return;
+std::vector<std::string> PointReader::check_places(const cases::Simulation& s) const {
+  std::vector<std::string> notes;
+  if (!s.state.air) return notes;
   const cases::Output& out = s.description.output;
   std::vector<cases::Problem> problems;
   const auto say = [&](const std::string& key, std::size_t i, const std::string& text) {
@@ -103,9 +104,14 @@ void PointReader::check_places(const cases::Simulation& s) const {
   for (std::size_t i = 0; i < out.probes.size(); ++i)
     if (!read(s, out.probes[i].at)) say("output.probe", i, "'" + out.probes[i].name + "' lies outside the fluid");
   for (std::size_t i = 0; i < out.lines.size(); ++i) {
-    bool found = false;
-    for (int n = 0; n < out.lines[i].points && !found; ++n) found = read(s, place_on(out.lines[i], n)).has_value();
-    if (!found) say("output.line", i, "'" + out.lines[i].name + "' meets no fluid");
+    const cases::Line& line = out.lines[i];
+    int outside = 0;
+    for (int n = 0; n < line.points; ++n) outside += !read(s, place_on(line, n));
+    if (outside == line.points)
+      say("output.line", i, "'" + line.name + "' meets no fluid");
+    else if (outside > 0)
+      notes.push_back("line '" + line.name + "': " + std::to_string(outside) + " of its " +
+                      std::to_string(line.points) + " points lie outside the fluid; lines.csv has no rows for them");
   }
   const auto& rows = s.state.air->rows;
   const auto outside = [&](int axis, double at) {
@@ -127,6 +133,7 @@ void PointReader::check_places(const cases::Simulation& s) const {
         }
   }
   if (!problems.empty()) throw cases::CaseError(std::move(problems));
+  return notes;
 }
 
 Vec3 place_on(const cases::Line& line, int n) {

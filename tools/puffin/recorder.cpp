@@ -306,8 +306,9 @@ void Recorder::write_lines(const cases::Simulation& s) {
   output::CsvFile csv(folder_.file("lines.csv"), output::line_columns());
   for (std::size_t k = 0; k < lines.size(); ++k)
     for (int n = 0; n < static_cast<int>(lines_[k].sum.size()); ++n) {
+      if (lines_[k].inside[n] == 0) continue;  // outside the fluid
       const Vec3 x = place_on(lines[k], n);
-      const double samples = static_cast<double>(lines_[k].inside[n]);  // 0: outside the fluid, 0/0 is written as nan
+      const double samples = static_cast<double>(lines_[k].inside[n]);
       const Vec3 u = lines_[k].sum[n].velocity / samples;
       output::append(csv, output::LineRow{lines[k].name, (x - lines[k].from).norm(), x[0], x[1], x[2], u[0], u[1], u[2],
                                           lines_[k].sum[n].pressure / samples, lines_[k].inside[n]});

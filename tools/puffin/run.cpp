@@ -50,7 +50,7 @@ int run_here(const RunOptions& options, cases::Case c, int threads, std::chrono:
   cases::Simulation& s = *simulation;
   // Only now: the reference speed, and with it the time step, belong to the whole run that the case describes.
   c.stop.time = s.description.stop.time = std::min(c.stop.time, options.until);
-  PointReader(s).check_places(s);
+  for (const std::string& text : PointReader(s).check_places(s)) log_warning(text);
   for (const std::string& text : cases::carrier_place_warnings(s.description, *s.tree)) log_warning(text);
   for (const std::string& text : s.warnings) log_warning(text);
   const auto out = options.out.empty() ? std::nullopt : std::optional(options.out);

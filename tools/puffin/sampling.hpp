@@ -30,8 +30,8 @@ class PointReader {
   /// Empty: the point lies outside the fluid.
   std::optional<PointReading> read(const cases::Simulation& s, const coupling::Vec3& x) const;
   /// Throws cases::CaseError, at its place in the file, for each probe, line, plane, slice or box of the case that
-  /// meets no fluid.
-  void check_places(const cases::Simulation& s) const;
+  /// meets no fluid. Returns a sentence for each line that lies outside in part.
+  std::vector<std::string> check_places(const cases::Simulation& s) const;
 
  private:
   struct Mean {

@@ -58,6 +58,25 @@ TEST_F(AirScene, ADensityThatWouldDifferTooMuchIsHealedOrTold) {
       << text("told.log");
 }
 
+// From half a channel below its floor to half a channel above its roof in steps of 0.1 mm: 11 of 21 points are in the
+// air, both walls among them.
+TEST_F(AirScene, ALineThatLeavesTheFluidHasRowsInsideAloneAndIsNamed) {
+  std::string longer = channel;
+  const std::string from = "0.0], to = [0.0015, 3e-5, 0.001], points = 41";
+  longer.replace(longer.find(from), from.size(), "-0.0005], to = [0.0015, 3e-5, 0.0015], points = 21");
+  ASSERT_EQ(run("longer", longer, "--no-report --until 0.1ms"), 0) << text("longer.log");
+  EXPECT_NE(text("longer.log").find("line 'across': 10 of its 21 points lie outside the fluid"), std::string::npos)
+      << text("longer.log");
+  const auto line = table("longer/lines.csv");
+  const auto s = line.numbers("s"), z = line.numbers("z"), u = line.numbers("u");
+  ASSERT_EQ(z.size(), 11U);
+  for (std::size_t n = 0; n < z.size(); ++n) {
+    EXPECT_NEAR(z[n], 1e-4 * static_cast<double>(n), 1e-12);
+    EXPECT_NEAR(s[n], z[n] + 5e-4, 1e-12);
+    EXPECT_TRUE(std::isfinite(u[n]));
+  }
+}
+
 TEST_F(AirScene, InAPeriodicDuctTheWallsTakeTheWholeBodyForce) {
   const std::string duct = R"toml(
 schema = 1
@@ -138,6 +157,11 @@ line = [{ name = "up", from = [3e-5, 3e-5, 0.0], to = [3e-5, 3e-5, 0.001], point
   const double drag = 1.806e-5 * 1.5e3 * 6.25e-5 * 6.25e-5;  // mu du/dz A
   EXPECT_NEAR(last(force, "patch", "z-min", "fx"), drag, 1e-5 * drag);
   EXPECT_NEAR(last(force, "patch", "z-max", "fx"), -drag, 1e-5 * drag);
+  // No inlet that a step could follow: the lids set it from the start (5 % is the window of follow-ramp).
+  ASSERT_EQ(run("follow", couette, "--no-report --until 1ms --set numerics.time_step=\"follow-ramp\""), 0)
+      << text("follow.log");
+  const double step = 0.025 * 6.25e-5 / std::hypot(1.0, 0.5);
+  EXPECT_NEAR(table("follow/history.csv").numbers("dt").back(), step, 0.05 * step);
 }
 
 // A body force from a table, uniform and linear in time, in a box without walls: u = int f dt / rho exactly.
