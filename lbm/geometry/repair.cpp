@@ -1,8 +1,8 @@
 #include "lbm/geometry/repair.hpp"
 
 #include <algorithm>
-#include <cstdlib>
 #include <array>
+#include <cstdlib>
 #include <numeric>
 
 #include "lbm/geometry/adjacency.hpp"
