@@ -77,11 +77,12 @@ class CaseBench {
     return run_child(run.case_file, run.sets, folder);
   }
 
-  /// The first reference run gives the value; the distances of the others say how far it may be off.
+  /// The first reference run gives the value; the distances of the others say how far it may be off. Those marked quick
+  /// are of the short benchmark alone.
   void find_reference() {
     reference_uncertainty_ = case_.reference_uncertainty;
     for (const cases::ParetoSetting& s : case_.references) {
-      if (quick_ && !s.quick) continue;
+      if (quick_ != s.quick) continue;
       const ChildRun run = child(s.sets);
       if (!run.output) throw std::runtime_error(case_.id + ", reference '" + s.label + "': " + run.problem);
       const Value v = value_of(case_, *run.output);
