@@ -48,8 +48,7 @@ void inherit(toml::table& root, const std::filesystem::path& file, Chain chain, 
   const auto name = key->value_exact<std::string>().value_or("");  // a copy: the key goes away
   const std::filesystem::path base = (file.parent_path() / name).lexically_normal();
   root.erase("base");
-  if (name.empty())
-    return findings.problem("base", place, "base must be the name of a case file, in quotes");
+  if (name.empty()) return findings.problem("base", place, "base must be the name of a case file, in quotes");
   std::error_code error;
   if (!std::filesystem::is_regular_file(base, error))
     return findings.problem("base", place,
