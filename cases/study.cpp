@@ -89,6 +89,8 @@ SweepRange range_of(const Change& change, Findings& findings) {
   return r;
 }
 
+constexpr std::int64_t most_replicates = 1000;
+
 struct Sweep {
   int method = 0;
   std::int64_t samples = 0, seed = 1;
@@ -205,7 +207,10 @@ Study read_study(const std::filesystem::path& file) {
   study.file = file;
   study.share = share_of(d.share, fields);
   study.experiments = d.experiments;
-  study.replicates = static_cast<int>(std::min<std::int64_t>(d.replicates, 10000));
+  if (d.replicates > most_replicates)
+    findings.problem("replicates",
+                     "replicates = " + std::to_string(d.replicates) + ": at most " + std::to_string(most_replicates));
+  study.replicates = static_cast<int>(std::min(d.replicates, most_replicates));
   if (d.cases.empty() && d.base.empty() && findings.problems().empty())
     findings.problem("base", {name, 1, 1}, "missing key 'base': the case file that the study starts from");
   const bool alone = d.cases.empty();
