@@ -15,6 +15,8 @@ std::unique_ptr<Simulation> build(const Case& c, const StoredFieldReader& stored
   auto s = std::make_unique<Simulation>();
   s->description = c;
   s->surface = load_surface(c);
+  for (const lbm::geometry::Defect& d : s->surface.defects)
+    if (d.kind == "duplicate facet") s->warnings.push_back(d.kind + ": " + d.message);
   if (const auto problems = boundary_problems(c, s->surface); !problems.empty()) throw CaseError(problems);
   refuse_untagged_openings(c, s->surface.patches);
   require_room(c, s->surface, available);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "cases/generators/generators.hpp"
+#include "lbm/geometry/repair.hpp"
 #include "lbm/geometry/stl.hpp"
 
 namespace puffin::cases {
@@ -44,6 +45,27 @@ std::vector<geometry::PatchSelection> selections_of(const Case& c, const geometr
   return selections;
 }
 
+/// A surface that is sound but for facets that stand twice is taken without the copies, with a warning. Another fault
+/// is told of the surface as it was given.
+void leave_out_copies(bool self_intersections, Surface& s) {
+  const auto fatal = [](const geometry::Defect& d) { return d.fatal; };
+  const auto is_copy = [](const geometry::Defect& d) { return d.fatal && d.kind == "duplicate facet"; };
+  const auto copies = std::find_if(s.defects.begin(), s.defects.end(), is_copy);
+  if (copies == s.defects.end()) return;
+  geometry::TriangleMesh single = s.mesh;
+  const std::size_t removed = geometry::remove_copies(single).count;
+  std::vector<geometry::Defect> left = geometry::check_surface(single, self_intersections);
+  if (std::any_of(left.begin(), left.end(), fatal)) return;
+  geometry::Defect told = *copies;
+  told.fatal = false;
+  told.count = removed;
+  told.message = std::to_string(removed) + " facets stand more than once, the first around " +
+                 geometry::place_text(told.where.front()) + ": the copies are left out";
+  left.push_back(told);
+  s.mesh = std::move(single);
+  s.defects = std::move(left);
+}
+
 void refuse_fatal(const std::vector<geometry::Defect>& defects) {
   std::string text;
   for (const geometry::Defect& d : defects)
@@ -75,6 +97,7 @@ Surface load_surface(const Case& c, bool self_intersections) {
   Surface s;
   s.mesh = mesh_of(c.geometry);
   s.defects = geometry::check_surface(s.mesh, self_intersections);
+  leave_out_copies(self_intersections, s);
   refuse_fatal(s.defects);
   s.patches = geometry::assign_patches(s.mesh, selections_of(c, s.mesh));
   s.volume = geometry::enclosed_volume(s.mesh);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <numeric>
 
 #include "lbm/geometry/adjacency.hpp"
@@ -57,8 +58,9 @@ Repair remove_degenerate(TriangleMesh& mesh) {
 int sense(const std::array<int, 3>& t) { return ((t[0] < t[1]) + (t[1] < t[2]) + (t[2] < t[0])) == 2 ? 1 : -1; }
 
 // Of copies with one sense in the majority one stays. Copies that cancel (a wall of no thickness, or the common face of
-// two bodies) all go if every edge keeps at least two triangles without them, else the first stays.
-Repair remove_duplicates(TriangleMesh& mesh) {
+// two bodies) all go if every edge keeps at least two triangles without them, else the first stays. `mixed`: groups
+// with both senses too; else only those with one.
+Repair remove_duplicates(TriangleMesh& mesh, bool mixed) {
   const Adjacency adjacency(mesh);
   const int n = static_cast<int>(mesh.triangles.size());
   std::vector<std::array<int, 3>> sorted = mesh.triangles;
@@ -72,7 +74,7 @@ Repair remove_duplicates(TriangleMesh& mesh) {
     int sum = 0;
     for (end = begin; end < n && sorted[order[end]] == sorted[order[begin]]; ++end)
       sum += sense(mesh.triangles[order[end]]);
-    if (end - begin < 2) continue;
+    if (end - begin < 2 || (!mixed && std::abs(sum) != end - begin)) continue;
     for (int i = begin; i < end; ++i) keep[order[i]] = 0;
     if (sum != 0) {
       const auto first = std::find_if(order.begin() + begin, order.begin() + end,
@@ -144,6 +146,8 @@ std::vector<char> inside_out(const TriangleMesh& mesh) {
 
 }  // namespace
 
+Repair remove_copies(TriangleMesh& mesh) { return remove_duplicates(mesh, false); }
+
 std::vector<Repair> repair(TriangleMesh& mesh, const RepairOptions& options) {
   std::vector<Repair> done;
   if (mesh.triangles.empty()) return done;
@@ -162,7 +166,7 @@ std::vector<Repair> repair(TriangleMesh& mesh, const RepairOptions& options) {
   welded.message = "welded vertices: " + std::to_string(welded.count);
   note(std::move(welded));
   note(remove_degenerate(mesh));
-  note(remove_duplicates(mesh));
+  note(remove_duplicates(mesh, true));
 
   Repair split{.what = "split facets", .where = split_at_t_junctions(mesh)};
   split.count = split.where.size();

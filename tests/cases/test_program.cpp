@@ -86,6 +86,30 @@ TEST_F(Program, ASurfaceWithAHoleEndsWith4) {
   EXPECT_EQ(puffin("voxelize " + stl + " --dx 0.1mm").code, 4);
 }
 
+// A box of 1 mm whose lid stands twice, in ASCII STL as many exporters write it.
+TEST_F(Program, FacetsThatStandTwiceAreLeftOutWithAWarning) {
+  const int corners[12][3] = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                              {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+  std::string text = "solid wall\n";
+  for (const int f : {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 2, 3}) {
+    text += "facet normal 0 0 0\nouter loop\n";
+    for (const int c : corners[f])
+      text +=
+          "vertex " + std::to_string(c & 1) + " " + std::to_string(c >> 1 & 1) + " " + std::to_string(c >> 2) + "\n";
+    text += "endloop\nendfacet\n";
+  }
+  const std::string stl = file("twice.stl", text + "endsolid wall\n");
+  const std::string box = file("twice.toml", "schema = 1\nname = \"twice\"\n[geometry]\nstl = \"" + stl +
+                                                 "\"\n[air]\nmodel = \"none\"\n[carriers]\ndiameter = \"70 um\"\n"
+                                                 "density = 1520\nlist = [{ position = [5e-4, 5e-4, 5e-4] }]\n"
+                                                 "outside = \"bounce\"\n[carriers.adhesion]\nmodel = \"none\"\n"
+                                                 "[stop]\ntime = \"1 us\"\n");
+  const Outcome o = puffin("check " + box + " --json");
+  EXPECT_EQ(o.code, 0) << o.out;
+  EXPECT_NE(o.out.find("2 facets stand more than once"), std::string::npos) << o.out;
+  EXPECT_EQ(puffin("voxelize " + stl + " --dx 0.1mm").code, 4);  // which describes the file as it is
+}
+
 TEST_F(Program, AnUnusableSurfaceIsDescribedAsJsonAndAsAPictureBeforeTheProgramEndsWith4) {
   const std::string stl = file("hole.stl",
                                "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"

@@ -1,12 +1,16 @@
 // puffin check: configuration, geometry, stability; every problem at once, nothing is run.
 
 #include <CLI/CLI.hpp>
+#include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "cases/check_boundaries.hpp"
 #include "cases/check_places.hpp"
 #include "cases/check_tables.hpp"
 #include "cases/micromodel_file.hpp"
+#include "cases/search_path.hpp"
+#include "cases/stability_envelope.hpp"
 #include "cases/write_case.hpp"
 #include "tools/puffin/arguments.hpp"
 #include "tools/puffin/assessment_text.hpp"
@@ -30,6 +34,15 @@ void check_places(const cases::Case& c, const cases::Surface& surface, cases::As
   for (auto& w : cases::carrier_place_warnings(c, tree)) assessment.warnings.push_back(std::move(w));
 }
 
+/// Settings that diverged in the map of stability, or are not in it.
+void check_stability(const cases::Case& c, cases::Assessment& assessment) {
+  const std::filesystem::path map = cases::stability_directory() / "envelope.toml";
+  if (!assessment.lattice || !std::filesystem::exists(map)) return;
+  const double speed = assessment.lattice->mach / std::sqrt(3.0);
+  auto text = cases::outside_envelope(c, assessment.lattice->tau, speed, cases::read_envelope(map));
+  if (!text.empty()) assessment.warnings.push_back(std::move(text));
+}
+
 int check_case(const CaseArguments& a) {
   const cases::Case c = a.read();
   if (c.fines && !c.fines->micromodels.empty()) cases::read_micromodels(c.fines->micromodels);
@@ -39,6 +52,7 @@ int check_case(const CaseArguments& a) {
   if (auto problems = cases::table_problems(c); !problems.empty()) throw cases::CaseError(std::move(problems));
   cases::Assessment assessment = cases::assess(c, surface);
   check_places(c, surface, assessment);
+  check_stability(c, assessment);
   for (const lbm::geometry::Defect& d : surface.defects) assessment.warnings.push_back(d.kind + ": " + d.message);
   const std::vector<std::string> assumed = cases::assumptions(c);
   if (a.json) {

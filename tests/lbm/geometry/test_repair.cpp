@@ -74,6 +74,20 @@ TEST(Repair, DuplicateAndDegenerateFacetsGo) {
   EXPECT_TRUE(check_surface(mesh).empty());
 }
 
+TEST(Repair, CopiesOfOneSenseGoAloneToo) {
+  TriangleMesh mesh = torus();
+  const std::vector<std::array<int, 3>> before = mesh.triangles;
+  for (const int t : {7, 7, 20}) mesh.triangles.push_back(mesh.triangles[t]);
+  mesh.solid.insert(mesh.solid.end(), 3, 0);
+  EXPECT_EQ(remove_copies(mesh).count, 3u);
+  EXPECT_EQ(mesh.triangles, before);
+  EXPECT_EQ(remove_copies(mesh).count, 0u);
+  const auto turned = std::array<int, 3>{before[4][1], before[4][0], before[4][2]};
+  mesh.triangles.push_back(turned);  // both senses: which of them is meant is not ours to say
+  mesh.solid.push_back(0);
+  EXPECT_EQ(remove_copies(mesh).count, 0u);
+}
+
 TEST(Repair, TheCommonFaceOfTwoBodiesGoesSoThatTheyAreOne) {
   TriangleMesh mesh =
       shapes::joined(shapes::box({0, 0, 0}, {0.01, 0.01, 0.01}), shapes::box({0.01, 0, 0}, {0.02, 0.01, 0.01}));

@@ -12,6 +12,7 @@
 #include "tools/output/csv_file.hpp"
 #include "tools/output/output_folder.hpp"
 #include "tools/puffin/bench/benches.hpp"
+#include "tools/puffin/bench/stability_envelope.hpp"
 #include "tools/puffin/bench/stability_map.hpp"
 #include "tools/puffin/bench/stability_plan.hpp"
 #include "tools/puffin/bench/stability_shapes.hpp"
@@ -163,7 +164,11 @@ json bench_stability(const BenchArguments& a) {
                   row["why"].get<std::string>().empty() ? "" : ": ");
     print(line + row["why"].get<std::string>().substr(0, 100));
   }
-  if (!a.out.empty()) output::write_whole(std::filesystem::path(a.out) / "stability.svg", stability_map(rows));
+  if (!a.out.empty()) {
+    const std::filesystem::path out(a.out);
+    output::write_whole(out / "stability.svg", stability_map(rows));
+    if (!a.quick) output::write_whole(out / "envelope.toml", cases::write_envelope(envelope_of(plan, folder, rows)));
+  }
   return rows;
 }
 
