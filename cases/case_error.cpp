@@ -16,7 +16,10 @@ std::string printable(std::string line) {
 
 std::string all_lines(const std::vector<Problem>& problems) {
   std::string text;
-  for (const Problem& p : problems) text += (text.empty() ? "" : "\n") + p.to_string();
+  for (const Problem& p : problems) {
+    if (!text.empty()) text += '\n';
+    text += p.to_string();
+  }
   return text;
 }
 
@@ -25,7 +28,9 @@ std::string all_lines(const std::vector<Problem>& problems) {
 std::string Problem::to_string() const {
   std::string place = file;
   if (line > 0) place += ":" + std::to_string(line) + ":" + std::to_string(column);
-  return printable(place + ": error: " + text);
+  place += ": error: ";
+  place += text;
+  return printable(std::move(place));
 }
 
 CaseError::CaseError(std::vector<Problem> found) : std::runtime_error(all_lines(found)), problems(std::move(found)) {}

@@ -90,6 +90,7 @@ SweepRange range_of(const Change& change, Findings& findings) {
 }
 
 constexpr std::int64_t most_replicates = 1000;
+constexpr std::size_t most_runs = 100000;
 
 struct Sweep {
   int method = 0;
@@ -165,6 +166,9 @@ std::vector<StudyCase> swept(const std::vector<StudyCase>& cases, const Sweep& s
   try {
     const auto points = sweep_points(static_cast<SweepMethod>(sweep.method), ranges, sweep.samples,
                                      static_cast<std::uint64_t>(sweep.seed));
+    if (cases.size() * points.size() > most_runs)
+      throw std::invalid_argument("the sweep has " + std::to_string(points.size()) + " points, for each of " +
+                                  std::to_string(cases.size()) + " cases: at most 100000 runs");
     for (const StudyCase& c : cases)
       for (std::size_t n = 0; n < points.size(); ++n) {
         all.push_back(c);
@@ -229,6 +233,9 @@ Study read_study(const std::filesystem::path& file) {
   if (d.sweep && findings.problems().empty())
     d.cases = swept(d.cases, *d.sweep, root["sweep"]["range"].node(), findings);
   check_names(d.cases, findings);
+  if (d.cases.size() * static_cast<std::size_t>(study.replicates) > most_runs)
+    findings.problem("replicates", std::to_string(study.replicates) + " replicates of " +
+                                       std::to_string(d.cases.size()) + " cases: at most 100000 runs");
   if (!findings.problems().empty()) throw CaseError(findings.sorted_problems());
   study.cases = std::move(d.cases);
   return study;
