@@ -14,7 +14,7 @@ struct Problem {
   int column = 0;
   std::string key;  // dotted, may be empty
   std::string text;
-  std::string to_string() const;  // file:line:column: error: text
+  std::string to_string() const;  // file:line:column: error: text; one line without control characters
 };
 
 /// Thrown by the readers with all the problems of a file; what() is one line a problem.

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 
+#include "cases/derived.hpp"
 #include "cases/opening.hpp"
 #include "cases/spelling.hpp"
 #include "cases/units.hpp"
@@ -11,6 +13,12 @@
 namespace puffin::cases {
 
 namespace {
+
+std::string four_digits(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", value);
+  return text;
+}
 
 class Checks {
  public:
@@ -32,6 +40,7 @@ class Checks {
       if (b.type == BoundaryType::slip) slip(key, b);
     }
     carriers();
+    duration();
     if (c_.carriers && c_.carriers->fill)
       if (const auto* patch = std::get_if<std::string>(&c_.carriers->fill->at)) need("carriers.fill.at", *patch);
     for (const std::string& patch : c_.output.forces)
@@ -127,6 +136,24 @@ class Checks {
       say("carriers.count", "the carriers alone have " + format_quantity(all * 1e9, unit::number) +
                                 " mm^3, the device " + format_quantity(surface_.volume * 1e9, unit::number) +
                                 " mm^3; give fewer or smaller ones");
+  }
+
+  /// A run of which nobody will see the end, or that ends within a thousandth of its first step: a wrong unit.
+  void duration() {
+    constexpr double most_steps = 1e11, least_steps = 1e-3;  // 10^11: three years at 1,000 steps a second
+    const AreaOf area_of = [&](const std::string& patch) { return surface_.area_of(patch); };
+    if (c_.air.model != AirModel::lbm || surface_.volume <= 0.0 || !problems_.empty()) return;
+    const double speed = reference_speed(c_, area_of);
+    if (!(speed > 0.0)) return;
+    const LatticeNumbers n = lattice_numbers(c_, cell_size(c_.numerics, surface_.volume), speed, area_of);
+    const std::string step = format_quantity(n.dt, unit::time), reference = format_quantity(speed, unit::velocity);
+    if (!(n.steps <= most_steps))
+      say("stop.time", "is " + four_digits(n.steps) + " steps of " + step +
+                           " away, with dx = " + format_quantity(n.dx, unit::length) + " and air of " + reference +
+                           "; at most 1e11 are possible: check the units of time, flow and dx");
+    else if (n.steps < least_steps)
+      say("stop.time", "comes within a thousandth of the first step, " + step + ", as the air reaches only " +
+                           reference + " until then: check its unit, or give numerics.reference_speed");
   }
 
   /// Reflection along the grid is exact only on planes of the grid: refuse the rest instead of adding friction.

@@ -1,5 +1,5 @@
 #pragma once
-// The presets of `puffin run`: how fine a grid, and how long.
+// The presets of `puffin run`: how fine a grid, how large a step, and how long.
 
 #include <span>
 #include <string_view>
@@ -9,12 +9,15 @@ namespace puffin::cases {
 /// A preset scales the cell size that the case asks for (its case files give the default one) and may shorten the run.
 struct Preset {
   std::string_view name;
-  double coarsening;    // of dx; the number of cells goes with its inverse cube
-  double longest_time;  // [s] stop.time is cut to this
+  double coarsening;           // of dx; the number of cells goes with its inverse cube
+  double longest_time;         // [s] stop.time is cut to this
+  double lattice_speed = 0.0;  // where the case gives none; 0: the default of the key
 };
 
-/// quick: 1.5 times the case's dx (0.375 mm for 0.25 mm) and at most 121 ms; fast: 1.2 times; default: as the case
-/// says; accurate: 2/3. Such factors keep a dx that fits the device's lengths fitting as many of them as possible.
+/// quick: 1.5 times the case's dx (0.375 mm for 0.25 mm) and at most 121 ms; fast: 1.2 times, at a lattice speed of
+/// 0.14, which the trade-off of the device found to cost nothing in accuracy (docs/accuracy-and-speed.md); default: as
+/// the case says; accurate: 2/3 of its dx. Such factors keep a dx that fits the device's lengths fitting as many of
+/// them as possible.
 std::span<const Preset> presets();
 
 /// Throws std::invalid_argument for an unknown name, naming the known ones.

@@ -89,6 +89,9 @@ SweepRange range_of(const Change& change, Findings& findings) {
   return r;
 }
 
+constexpr std::int64_t most_replicates = 1000;
+constexpr std::size_t most_runs = 100000;
+
 struct Sweep {
   int method = 0;
   std::int64_t samples = 0, seed = 1;
@@ -163,6 +166,9 @@ std::vector<StudyCase> swept(const std::vector<StudyCase>& cases, const Sweep& s
   try {
     const auto points = sweep_points(static_cast<SweepMethod>(sweep.method), ranges, sweep.samples,
                                      static_cast<std::uint64_t>(sweep.seed));
+    if (cases.size() * points.size() > most_runs)
+      throw std::invalid_argument("the sweep has " + std::to_string(points.size()) + " points, for each of " +
+                                  std::to_string(cases.size()) + " cases: at most 100000 runs");
     for (const StudyCase& c : cases)
       for (std::size_t n = 0; n < points.size(); ++n) {
         all.push_back(c);
@@ -205,7 +211,10 @@ Study read_study(const std::filesystem::path& file) {
   study.file = file;
   study.share = share_of(d.share, fields);
   study.experiments = d.experiments;
-  study.replicates = static_cast<int>(std::min<std::int64_t>(d.replicates, 10000));
+  if (d.replicates > most_replicates)
+    findings.problem("replicates",
+                     "replicates = " + std::to_string(d.replicates) + ": at most " + std::to_string(most_replicates));
+  study.replicates = static_cast<int>(std::min(d.replicates, most_replicates));
   if (d.cases.empty() && d.base.empty() && findings.problems().empty())
     findings.problem("base", {name, 1, 1}, "missing key 'base': the case file that the study starts from");
   const bool alone = d.cases.empty();
@@ -224,6 +233,9 @@ Study read_study(const std::filesystem::path& file) {
   if (d.sweep && findings.problems().empty())
     d.cases = swept(d.cases, *d.sweep, root["sweep"]["range"].node(), findings);
   check_names(d.cases, findings);
+  if (d.cases.size() * static_cast<std::size_t>(study.replicates) > most_runs)
+    findings.problem("replicates", std::to_string(study.replicates) + " replicates of " +
+                                       std::to_string(d.cases.size()) + " cases: at most 100000 runs");
   if (!findings.problems().empty()) throw CaseError(findings.sorted_problems());
   study.cases = std::move(d.cases);
   return study;

@@ -6,7 +6,7 @@
 namespace puffin::lbm {
 
 Isa hardware_isa() {
-#if !defined(__clang__)  // clang 14 and std::experimental::simd: with AVX-512 lanes change that a mask leaves out
+#if !defined(__clang__)  // for clang, libstdc++ 12 takes a masked assignment all or none with AVX-512: decision 0010
   if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") &&
       __builtin_cpu_supports("avx512vl"))
     return Isa::avx512;

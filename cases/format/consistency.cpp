@@ -201,6 +201,13 @@ class Checks {
         say(indexed("output.fields", i) + ".what", "there are no fines: the case has no [fines]");
     if (o.pressure_window && (*o.pressure_window)[0] >= c_.stop.time)
       say("output.pressure_window", "begins after stop.time = " + format_quantity(c_.stop.time, unit::time));
+    constexpr double most_files = 1e6;
+    for (std::size_t i = 0; i < o.fields.size(); ++i)
+      if (c_.stop.time / o.fields[i].every > most_files)
+        say(indexed("output.fields", i) + ".every",
+            "more than a million files until stop.time; give a longer interval");
+    if (c_.stop.time / o.carriers > most_files)
+      say("output.carriers", "more than a million files until stop.time; give a longer interval");
     if (c_.stop.time / o.statistics > 1e7)
       say("output.statistics", "more than ten million rows until stop.time; give a longer interval");
   }

@@ -45,18 +45,17 @@ void inherit(toml::table& root, const std::filesystem::path& file, Chain chain, 
   if (!key) return;
   const toml::source_position at = key->source().begin;
   const Place place{file.string(), static_cast<int>(at.line), static_cast<int>(at.column)};
-  const auto* text = key->as_string();
-  const std::filesystem::path base = text ? (file.parent_path() / text->get()).lexically_normal() : "";
+  const auto name = key->value_exact<std::string>().value_or("");  // a copy: the key goes away
+  const std::filesystem::path base = (file.parent_path() / name).lexically_normal();
   root.erase("base");
-  if (!text || text->get().empty())
-    return findings.problem("base", place, "base must be the name of a case file, in quotes");
+  if (name.empty()) return findings.problem("base", place, "base must be the name of a case file, in quotes");
   std::error_code error;
   if (!std::filesystem::is_regular_file(base, error))
     return findings.problem("base", place,
-                            "base = \"" + text->get() + "\": there is no such file; looked for " + base.string());
+                            "base = \"" + name + "\": there is no such file; looked for " + base.string());
   chain.push_back(std::filesystem::weakly_canonical(file, error));
   if (std::find(chain.begin(), chain.end(), std::filesystem::weakly_canonical(base, error)) != chain.end())
-    return findings.problem("base", place, "base = \"" + text->get() + "\": the bases lead round in a circle");
+    return findings.problem("base", place, "base = \"" + name + "\": the bases lead round in a circle");
   const std::string content = read_text(base);
   findings.add_text(base.string(), content);
   toml::table under = parse_toml(content, base.string());

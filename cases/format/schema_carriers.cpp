@@ -242,6 +242,7 @@ void describe_source(Fields& io, Carriers& c) {
 void describe(Fields& io, Carriers& c) {
   describe_source(io, c);
   io.number("fines_each", c.fines_each, unit::number, Range::non_negative, otherwise(0.0));
+  if (c.fines_each > 1e12) io.problem("fines_each", "at most 10^12 fines a carrier"), c.fines_each = 0.0;
   io.number("fine_mass_ratio", c.fine_mass_ratio, unit::number, Range::positive, otherwise(2e-5));
   io.vector("gravity", c.gravity, unit::acceleration, otherwise(Vec3(0, 0, -9.81)));
   io.choice("drag", c.drag, otherwise(Drag::schiller_naumann));

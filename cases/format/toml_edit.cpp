@@ -104,6 +104,8 @@ void apply_preset(toml::table& root, const Preset& preset) {
     if (cells && *cells > 0.0 && *cells < 9e15)
       replace("numerics", "cells", std::max(1.0, std::round(*cells / std::pow(preset.coarsening, 3))));
   }
+  if (preset.lattice_speed > 0.0 && root["numerics"].is_table() && !root["numerics"]["lattice_speed"])
+    replace("numerics", "lattice_speed", preset.lattice_speed);
   if (stop && *stop > preset.longest_time) replace("stop", "time", preset.longest_time);
 }
 

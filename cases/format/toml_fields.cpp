@@ -8,6 +8,8 @@
 namespace puffin::cases::format {
 namespace {
 
+constexpr std::size_t longest_name = 200;  // [byte]: it becomes part of the names of folders
+
 /// Values of --set and --preset have no place in a file.
 Place place_of(const toml::source_region& source, const std::string& file) {
   if (source.path && source.path->starts_with("--")) return {*source.path, 0, 0};
@@ -182,8 +184,17 @@ void TomlFields::flag(std::string_view key, bool& value, Fallback<bool> fallback
 void TomlFields::text(std::string_view key, std::string& value, Fallback<std::string> fallback) {
   read(key, value, fallback, [&](const toml::node& node) -> std::optional<std::string> {
     const auto* s = node.as_string();
-    if (s && !s->get().empty()) return s->get();
-    return wrong(key, node, s ? "must not be empty" : "must be a text in quotes"), std::nullopt;
+    if (!s) return wrong(key, node, "must be a text in quotes"), std::nullopt;
+    if (s->get().empty()) return wrong(key, node, "must not be empty"), std::nullopt;
+    const bool one_line = key == "name" || key == "patch" || key == "with" || key == "scalar";
+    const auto control = [&](unsigned char c) {
+      return c == 127 || (c < 32 && (one_line || (c != '\n' && c != '\t')));
+    };
+    if (std::any_of(s->get().begin(), s->get().end(), control))
+      return wrong(key, node, "must not hold control characters"), std::nullopt;
+    if (one_line && s->get().size() > longest_name)
+      return wrong(key, node, "is " + std::to_string(s->get().size()) + " letters long; at most 200"), std::nullopt;
+    return s->get();
   });
 }
 

@@ -21,6 +21,8 @@ std::string read_text(const std::filesystem::path& file) {
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(file, error);
   if (!error && std::filesystem::is_directory(status)) error = std::make_error_code(std::errc::is_a_directory);
+  if (!error && (std::filesystem::is_fifo(status) || std::filesystem::is_socket(status)))  // nobody may ever write
+    throw CaseError({{file.string(), 0, 0, "", "this is a pipe, which may never say anything; give a file"}});
   if (!error && std::filesystem::is_regular_file(status) && std::filesystem::file_size(file) > longest_file)
     throw too_long(file);
   std::ifstream in(file, std::ios::binary);

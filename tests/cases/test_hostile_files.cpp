@@ -17,7 +17,7 @@ using test::sample;
 TEST(HostileFiles, GiveErrorsAndNoCrash) {
   const std::string deep(100000, '[');
   for (const std::string& text :
-       {std::string(), std::string("\0\1\2\377binary", 12),
+       {std::string(), std::string("\0\1\2\377binary", 10),
         std::string("\x7f"
                     "ELF\2\1\1"),
         "a = " + deep, "a = " + std::string(5000, '[') + std::string(5000, ']'),

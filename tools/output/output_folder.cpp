@@ -149,8 +149,9 @@ OutputFolder::OutputFolder(const std::optional<fs::path>& out, const std::string
   if (out) {
     if (std::error_code error; resume && !fs::exists(*out, error))
       throw OutputError(fs::absolute(*out).string() + " holds no run to resume; start it without --resume");
-    make_folder(*out);
-    path_ = fs::canonical(*out);
+    const fs::path plain = fs::absolute(*out).lexically_normal();  // a/../b makes no a
+    make_folder(plain);
+    path_ = fs::canonical(plain);
     resumed_ = refuse_or_clear(path_, resume);
     return;
   }

@@ -163,6 +163,8 @@ void write_summary(const std::filesystem::path& file, const Summary& summary) {
 
 Summary read_summary(const std::filesystem::path& file) {
   const Json json = read_json(file);
+  if (!json.contains("state") || !json["state"].is_string())
+    throw OutputError(file.string() + " is damaged: it does not say how the run ended ('state')");
   try {
     return summary_of(json);
   } catch (const nlohmann::json::exception& error) {

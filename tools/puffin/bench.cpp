@@ -96,9 +96,9 @@ Command bench() {
             app.add_option("name", a->name, what)->required()->check(CLI::IsMember(names));
             app.add_flag("--quick", a->quick, "a smaller set, in a minute or two");
             app.add_option("--cells", a->cells, "kernel: numbers of cells instead of the usual ones")
-                ->check(CLI::PositiveNumber);
+                ->check(CLI::Range(1e3, 4e9));
             app.add_option("--carriers", a->carriers, "dem: numbers of carriers instead of the usual ones")
-                ->check(CLI::PositiveNumber);
+                ->check(CLI::Range(1.0, 1e9));
             app.add_option("--only", a->only,
                            "pareto: this case alone, like P9; stability: this scene; may be repeated")
                 ->type_name("ID");

@@ -33,8 +33,10 @@ int report(const std::exception& error, bool json) {
       if (!json) std::fprintf(stderr, "%s\n", p.to_string().c_str());
     }
   } else {
-    problems.push_back({{"message", error.what()}});
-    const std::string text = error.what();
+    std::string text = dynamic_cast<const std::bad_alloc*>(&error) ? "there is not enough memory" : error.what();
+    std::replace_if(  // a hostile name shall not write on the terminal
+        text.begin(), text.end(), [](unsigned char c) { return (c < 32 && c != '\n') || c == 127; }, '?');
+    problems.push_back({{"message", text}});
     const bool complete = text.starts_with("error: ") || text.find(": error: ") != std::string::npos;
     if (!json && complete) std::fprintf(stderr, "%s\n", text.c_str());
     if (!json && !complete) log_error(text);

@@ -14,6 +14,7 @@
 #include "tools/output/output_folder.hpp"
 #include "tools/puffin/stepping.hpp"
 #include "tools/puffin/stored_field.hpp"
+#include "tools/puffin/thread_limit.hpp"
 
 namespace puffin::tools {
 namespace {
@@ -82,6 +83,7 @@ double steps_before(const cases::Simulation& s, double part, double end) {
 Rehearsal rehearse(const cases::Case& c, double seconds) {
   Rehearsal r;
   r.threads = c.numerics.threads > 0 ? c.numerics.threads : oneapi::tbb::info::default_concurrency();
+  require_threads(r.threads);
   const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism,
                                           static_cast<std::size_t>(r.threads));
   _mm_setcsr(_mm_getcsr() | 0x8040);  // flush denormals, as a run does

@@ -21,6 +21,7 @@
 #include "tools/puffin/stepping.hpp"
 #include "tools/puffin/stored_field.hpp"
 #include "tools/puffin/summarize.hpp"
+#include "tools/puffin/thread_limit.hpp"
 
 namespace puffin::tools {
 
@@ -99,6 +100,7 @@ int run_command(const RunOptions& options) {
   cases::Case c = cases::read_case(options.case_file, options.sets, options.preset);
   const int wanted = options.threads > 0 ? options.threads : c.numerics.threads;
   const int threads = wanted > 0 ? wanted : static_cast<int>(std::thread::hardware_concurrency());
+  require_threads(threads);
   const oneapi::tbb::global_control control(oneapi::tbb::global_control::max_allowed_parallelism,
                                             static_cast<std::size_t>(threads));
   // Left alone, oneTBB uses no more threads than there are processors, whatever was asked for.

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "lbm/plane_flux.hpp"
+
 namespace puffin::tools {
 
 namespace {
@@ -105,7 +107,7 @@ Totals read_totals(const cases::Simulation& s) {
 namespace {
 
 struct Layer {
-  double flow = 0.0, pressure = 0.0, carried = 0.0, flux = 0.0;
+  double pressure = 0.0, carried = 0.0, flux = 0.0;
   std::size_t cells = 0;
 };
 
@@ -119,10 +121,9 @@ Layer read_layer(const cases::Simulation& s, int axis, int index) {
         if (axis != 0) break;
         continue;
       }
-      const PointReading r = read_cell(s, run.first + n);
-      const double u = r.velocity[axis], density = 1.0 + s.state.scale.density_excess_lu(r.pressure);
-      layer.flow += density * u * rows.dx() * rows.dx();
       if (!s.state.air->is_fluid(run.first + n)) continue;  // behind a wall: moves air, has no pressure of the fluid
+      const PointReading r = read_cell(s, run.first + n);
+      const double u = r.velocity[axis];
       layer.pressure += r.pressure;
       layer.flux += u;
       layer.carried += u * total_pressure(s, r);
@@ -133,10 +134,40 @@ Layer read_layer(const cases::Simulation& s, int axis, int index) {
 
 PlaneReading reading_of(const Layer& layer) {
   PlaneReading r;
-  r.flow_rate = layer.flow;
   r.static_pressure = layer.pressure / static_cast<double>(layer.cells);
   r.total_pressure = layer.flux != 0.0 ? layer.carried / layer.flux : r.static_pressure;
   return r;
+}
+
+/// Mass flow over the reference density [m^3/s] of one layer of cells: for a domain that has no other.
+double flow_of_cells(const cases::Simulation& s, int axis, int index) {
+  double flow = 0.0;
+  for (const auto& run : s.state.air->rows.runs())
+    for (int n = 0; n < run.count; ++n) {
+      const int c[3] = {run.x + n, run.y, run.z};
+      if (c[axis] != index) continue;
+      const PointReading r = read_cell(s, run.first + n);
+      flow += (1.0 + s.state.scale.density_excess_lu(r.pressure)) * r.velocity[axis] * s.dx * s.dx;
+    }
+  return flow;
+}
+
+/// Mass flow over the reference density [m^3/s] at a plane `place` cells along `axis`: linear between those through the
+/// faces of cells on both sides; beyond the outermost faces theirs. Empty: there are none.
+std::optional<double> flow_through(const cases::Simulation& s, int axis, double place) {
+  const int below = static_cast<int>(std::floor(place - 0.5));
+  const double part = place - 0.5 - below, unit = s.state.scale.speed() * s.dx * s.dx;
+  double wall_speed = 0.0;
+  for (std::size_t p = 0; p < s.models.patches.size(); ++p)
+    if (s.state.air->boundaries[p].kind == lbm::BoundaryKind::wall && s.models.patches[p].speed)
+      wall_speed = s.models.patches[p].speed(s.state.time) / s.state.scale.speed();
+  const auto flux = [&](int index) { return lbm::plane_flux(*s.state.air, wall_speed, axis, index); };
+  const lbm::PlaneFlux low = flux(below);
+  const lbm::PlaneFlux high = part > 0.0 || low.links == 0 ? flux(below + 1) : low;
+  if (low.links == 0 && high.links == 0) return std::nullopt;
+  if (low.links == 0) return unit * high.mass;
+  if (high.links == 0) return unit * low.mass;
+  return unit * ((1.0 - part) * low.mass + part * high.mass);
 }
 
 }  // namespace
@@ -149,15 +180,17 @@ std::optional<PlaneReading> read_plane(const cases::Simulation& s, int axis, dou
   const double part = place - below;
   const Layer low = read_layer(s, axis, below), high = read_layer(s, axis, below + 1);
   if (low.cells == 0 && high.cells == 0) return std::nullopt;
+  PlaneReading r;
   if (low.cells != high.cells) {
     const bool upper = low.cells == 0 || (high.cells > 0 && part >= 0.5);
-    return reading_of(upper ? high : low);
+    r = reading_of(upper ? high : low);
+  } else {
+    const PlaneReading a = reading_of(low), b = reading_of(high);
+    r.static_pressure = (1.0 - part) * a.static_pressure + part * b.static_pressure;
+    r.total_pressure = (1.0 - part) * a.total_pressure + part * b.total_pressure;
   }
-  const PlaneReading a = reading_of(low), b = reading_of(high);
-  PlaneReading r;
-  r.flow_rate = (1.0 - part) * a.flow_rate + part * b.flow_rate;
-  r.static_pressure = (1.0 - part) * a.static_pressure + part * b.static_pressure;
-  r.total_pressure = (1.0 - part) * a.total_pressure + part * b.total_pressure;
+  const auto flow = flow_through(s, axis, place);
+  r.flow_rate = flow ? *flow : flow_of_cells(s, axis, low.cells > 0 ? below : below + 1);
   return r;
 }
 

@@ -144,7 +144,8 @@ class Company {
           p.recorder->take_events(*p.simulation);
           p.recorder->record(*p.simulation);
           p.progress->update(*p.recorder, {}, false);
-          if (const std::int64_t steps = p.state().air->steps; steps - p.checked >= steps_between_checks) {
+          const std::int64_t steps = p.state().air->steps, next = p.simulation->models.steps_per_exchange_asleep;
+          if (steps - p.checked + next > steps_between_checks) {
             p.health->check(p.simulation->models, p.state());
             p.checked = steps;
           }

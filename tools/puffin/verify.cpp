@@ -144,6 +144,8 @@ int verify(const VerifyArguments& a) try {
       throw UsageError(e.what());
     }
   const auto catalogue = cases::read_catalogue(a.catalogue.empty() ? cases::verification_directory() : a.catalogue);
+  if (catalogue.empty())
+    throw UsageError("--catalogue " + a.catalogue.string() + ": no folder in it has a verify.toml");
   check_names(catalogue, a);
   const Workplace place(a.out);
   std::vector<VerifyRow> rows;

@@ -7,14 +7,15 @@ Each input runs in an empty folder of its own that holds case.toml (the sound ba
 input's files. The program then
   - ends within 20 s, with the exit code `exit`; never by a signal;
   - says `message`, each of its lines a whole line of stderr, byte for byte ({here} stands for the folder,
-    {prefix} for where the program is installed, {source} for this tree);
+    {prefix} for where the program is installed, {source} for this tree), and no other line with "error: ";
   - needs less than 2 GB of address space on one thread;
   - leaves no file that was not there, in the folder or beside it, unless `leaves` names it.
 --show prints what is said instead of comparing. --document compares FILE with the table as a page; --write makes it.
 
 Keys of an [[input]]: what, exit, message, and any of: replace (list of [old, new] in the base), append, case (instead
 of the base), files (name -> text, or { hex = "..." } or { repeat = "text", times = n }), arguments (default: check
-case.toml), environment, leaves, setup (shell commands run before in the folder).
+case.toml), environment, leaves, on_stdout (the message is a result: that of plan), setup (shell commands run before in
+the folder).
 """
 
 import argparse
@@ -74,7 +75,7 @@ def attempt(program: str, base: str, row: dict) -> tuple[int | str, str, set[str
             run = subprocess.run([program, *row.get("arguments", ["check", "case.toml"])], cwd=folder, env=environment,
                                  capture_output=True, timeout=SECONDS, preexec_fn=limits, stdin=subprocess.DEVNULL,
                                  check=False)
-            code, said = run.returncode, run.stderr.decode(errors="replace")
+            code, said = run.returncode, (run.stdout if row.get("on_stdout") else run.stderr).decode(errors="replace")
         except subprocess.TimeoutExpired:
             code, said = f"none within {SECONDS} s", ""
         left = {name.removeprefix("here/") for name in listing(Path(outer)) - before}
@@ -90,7 +91,11 @@ def faults(row: dict, outcome: tuple[int | str, str, set[str]]) -> list[str]:
     if code != row["exit"]:
         found.append(f"exit code {code}, not {row['exit']}")
     lines = said.splitlines()
-    found += [f"does not say: {line}" for line in row["message"].splitlines() if line not in lines]
+    wanted = row["message"].splitlines()
+    found += [f"does not say: {line}" for line in wanted if line not in lines]
+    found += [f"says besides: {line}" for line in lines if "error: " in line and line not in wanted]
+    if not wanted:
+        found.append("the table has no message")
     if left != set(row.get("leaves", [])):
         found.append(f"leaves {sorted(left)}, not {sorted(row.get('leaves', []))}")
     if found:

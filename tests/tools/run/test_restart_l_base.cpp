@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <random>
 
+#include "tests/tools/run/hurried_l_base.hpp"
 #include "tests/tools/run/restart.hpp"
 
 namespace {
@@ -10,35 +11,11 @@ namespace {
 using namespace puffin;
 using std::chrono::milliseconds;
 
-// All 25000 carriers of L-Base in its device, coarse, and hit within milliseconds instead of a quarter of a second: so
-// the run is short and yet carriers fly, collide, shed fines and are counted when it is killed.
-constexpr const char* hurried = R"toml(
-base = "@/cases/l-base/case.toml"
-name = "L-Base, hurried"
-[[air.boundary]]
-patch = "inlet"
-type = "velocity-inlet"
-flow_rate = [["0 s", "0 L/min"], ["4 ms", "40 L/min"]]
-[[air.boundary]]
-patch = "outlet"
-type = "pressure-outlet"
-[numerics]
-dx = "0.5 mm"
-[stop]
-time = "10 ms"
-[output]
-statistics = "0.1 ms"
-carriers = "2 ms"
-fields = [{ what = ["velocity", "fines"], region = "slice:y=0", every = "5 ms" }]
-)toml";
-
 TEST(RestartLBase, TwentyKillsAtRandomMomentsChangeNothing) {
   const auto folder = std::filesystem::temp_directory_path() / "puffin-restart-l-base";
   std::filesystem::remove_all(folder);
   std::filesystem::create_directories(folder);
-  std::string text = hurried;
-  text.replace(text.find('@'), 1, PUFFIN_SOURCE_DIR);
-  std::ofstream(folder / "case.toml") << text;
+  std::ofstream(folder / "case.toml") << hurried_l_base("10 ms");
   const auto words = [&](const std::string& name, int threads, bool resume) {
     std::vector<std::string> all{"run",       folder / "case.toml",
                                  "--out",     folder / name,
