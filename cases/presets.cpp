@@ -9,7 +9,7 @@ namespace puffin::cases {
 namespace {
 
 constexpr double unlimited = std::numeric_limits<double>::infinity();
-constexpr std::array all_presets{Preset{"quick", 1.5, 0.121}, Preset{"fast", 1.2, unlimited, 0.14},
+constexpr std::array all_presets{Preset{"quick", 1.5, 0.121}, Preset{"fast", 1.2, unlimited, 1.4},
                                  Preset{"default", 1.0, unlimited}, Preset{"accurate", 2.0 / 3.0, unlimited}};
 
 }  // namespace

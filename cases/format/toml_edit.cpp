@@ -104,8 +104,12 @@ void apply_preset(toml::table& root, const Preset& preset) {
     if (cells && *cells > 0.0 && *cells < 9e15)
       replace("numerics", "cells", std::max(1.0, std::round(*cells / std::pow(preset.coarsening, 3))));
   }
-  if (preset.lattice_speed > 0.0 && root["numerics"].is_table() && !root["numerics"]["lattice_speed"])
-    replace("numerics", "lattice_speed", preset.lattice_speed);
+  const auto speed_key = root["numerics"]["lattice_speed"];
+  if (preset.speeding != 1.0 && root["numerics"].is_table() && (!speed_key || speed_key.is_number())) {
+    constexpr double usual = 0.10, largest = 0.15;  // the key's default; what every scene was seen to run with
+    const double speed = speed_key.value_or(usual);
+    if (speed > 0.0) replace("numerics", "lattice_speed", std::min(preset.speeding * speed, std::max(speed, largest)));
+  }
   if (stop && *stop > preset.longest_time) replace("stop", "time", preset.longest_time);
 }
 

@@ -45,6 +45,13 @@ TEST(ShippedCases, TheirSurfacesAreClosedAndHaveTheirPatches) {
   }
 }
 
+TEST(ShippedCases, ThePresetFastTakesLargerCellsAndLongerSteps) {
+  const auto file = std::filesystem::path(PUFFIN_SOURCE_DIR) / "cases/l-base/case.toml";
+  const Numerics given = read_case(file).numerics, fast = read_case(file, {}, "fast").numerics;
+  EXPECT_DOUBLE_EQ(*fast.dx, 1.2 * *given.dx);
+  EXPECT_DOUBLE_EQ(fast.lattice_speed, 1.4 * given.lattice_speed);
+}
+
 // Facts of the thesis: 25000 carriers weigh 7.1 mg with their fines. Tolerance: the mass is stated with two digits.
 TEST(ShippedCases, LBaseLoadsTheDoseOfTheThesis) {
   const Case c = read_case(std::filesystem::path(PUFFIN_SOURCE_DIR) / "cases/l-base/case.toml");
