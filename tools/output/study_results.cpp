@@ -77,7 +77,7 @@ std::optional<Summary> summary_of(const fs::path& run, const std::string& scalar
   };
   keep_own(s.fines);
   if (replay.empty()) return s;
-  std::vector<FinesSummary> fines = read_summary(run / replay).fines;
+  std::vector<FinesSummary> fines = read_fines(run / replay);
   keep_own(fines);
   if (s.carriers && s.carriers->RDF && !s.fines.empty() && !fines.empty())
     *s.carriers->RDF += fines_of_dose * (fines[0].FFW + fines[0].FFCR - s.fines[0].FFW - s.fines[0].FFCR);

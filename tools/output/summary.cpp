@@ -94,6 +94,16 @@ Json written_fines(const std::vector<FinesSummary>& fines) {
   return json;
 }
 
+std::vector<FinesSummary> fines_of(const Json& json) {
+  std::vector<FinesSummary> fines;
+  for (const auto& [name, item] : part(json, "fines").items()) {
+    fines.push_back(read<FinesSummary>(item));
+    fines.back().name = name;
+    fines.back().by_mechanism = read<MechanismShares>(part(item, "by_mechanism"));
+  }
+  return fines;
+}
+
 Summary summary_of(const Json& json) {
   Summary s = read<Summary>(json);
   for (const auto& [name, seconds] : part(json, "phases").items()) {
@@ -114,11 +124,7 @@ Summary summary_of(const Json& json) {
   }
   if (json.contains("air_mass")) s.air_mass = read<AirMass>(json["air_mass"]);
   if (json.contains("carriers")) s.carriers = read<CarrierSummary>(json["carriers"]);
-  for (const auto& [name, item] : part(json, "fines").items()) {
-    s.fines.push_back(read<FinesSummary>(item));
-    s.fines.back().name = name;
-    s.fines.back().by_mechanism = read<MechanismShares>(part(item, "by_mechanism"));
-  }
+  s.fines = fines_of(json);
   if (json.contains("collisions")) s.collisions = read<CollisionSummary>(json["collisions"]);
   for (const auto& text : part(json, "warnings")) s.warnings.push_back(text.get<std::string>());
   for (const auto& text : part(json, "assumptions")) s.assumptions.push_back(text.get<std::string>());
@@ -159,6 +165,15 @@ std::string fines_json(const std::vector<FinesSummary>& fines) { return written_
 
 void write_summary(const std::filesystem::path& file, const Summary& summary) {
   write_whole(file, summary_json(summary));
+}
+
+std::vector<FinesSummary> read_fines(const std::filesystem::path& file) {
+  const Json json = read_json(file);
+  try {
+    return fines_of(json);
+  } catch (const nlohmann::json::exception& error) {
+    throw OutputError(file.string() + " is damaged: " + error.what());
+  }
 }
 
 Summary read_summary(const std::filesystem::path& file) {

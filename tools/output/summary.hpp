@@ -117,8 +117,11 @@ struct Summary {
 
 /// Writes under a temporary name and renames. Throws OutputError.
 void write_summary(const std::filesystem::path& file, const Summary& summary);
-/// Throws OutputError if the file is missing or is no summary. Unknown keys are ignored, missing ones keep defaults.
+/// Throws OutputError if the file is missing or is no summary (without `state` it is none). Unknown keys are
+/// ignored, other missing ones keep defaults.
 Summary read_summary(const std::filesystem::path& file);
+/// The `fines` block alone, of a summary or of what `puffin replay --json` wrote. Throws OutputError.
+std::vector<FinesSummary> read_fines(const std::filesystem::path& file);
 /// Writes summary.csv beside summary.json: a row `quantity,value` for every number and text in it, SI units; the
 /// quantity is the path ("carriers.RDF"), elements of lists go by their name. Throws OutputError.
 void write_summary_table(const std::filesystem::path& run);
