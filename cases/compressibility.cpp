@@ -19,10 +19,7 @@ constexpr double turbulent = 2300.0;  // Reynolds number of the inlet
 /// Per patch: whether the air rubs on it.
 std::vector<char> resting_walls(const Case& c, const Surface& s) {
   std::vector<char> rests;
-  for (const std::string& name : s.patches.names) {
-    const Boundary* b = boundary_of(c.air, name);
-    rests.push_back(!is_periodic(c.air, name) && (b == nullptr || b->type == BoundaryType::wall));
-  }
+  for (const std::string& name : s.patches.names) rests.push_back(is_resting_wall(c.air, name));
   return rests;
 }
 

@@ -153,6 +153,11 @@ const Boundary* boundary_of(const Air& air, const std::string& patch) {
   return nullptr;
 }
 
+bool is_resting_wall(const Air& air, const std::string& patch) {
+  const Boundary* b = boundary_of(air, patch);
+  return !is_periodic(air, patch) && (b == nullptr || b->type == BoundaryType::wall);
+}
+
 bool is_periodic(const Air& air, const std::string& patch) {
   return std::any_of(air.boundaries.begin(), air.boundaries.end(), [&](const Boundary& b) {
     return b.type == BoundaryType::periodic && (b.patch == patch || b.with == patch);

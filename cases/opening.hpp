@@ -38,6 +38,8 @@ double integral_over(const Surface& surface, int patch, double finest, const std
 
 /// The boundary that the case names for a patch, or nullptr: a wall.
 const Boundary* boundary_of(const Air& air, const std::string& patch);
+/// Whether air rubs on the patch: a wall that does not move, by name or because the case says nothing else of it.
+bool is_resting_wall(const Air& air, const std::string& patch);
 /// Whether the patch is one of a periodic pair.
 bool is_periodic(const Air& air, const std::string& patch);
 

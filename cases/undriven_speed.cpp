@@ -54,12 +54,8 @@ EstimatedSpeed estimated_speed(const Case& c, const Surface& s) {
   double driven = 0.0;
   if (gradient > 0.0) {
     double walls = 0.0;
-    for (std::size_t t = 0; t < s.mesh.triangles.size(); ++t) {
-      const std::string& patch = s.patches.names[s.patches.of_triangle[t]];
-      const Boundary* b = boundary_of(c.air, patch);
-      if (!is_periodic(c.air, patch) && (b == nullptr || b->type == BoundaryType::wall))
-        walls += s.mesh.area(static_cast<int>(t));
-    }
+    for (const std::string& patch : s.patches.names)
+      if (is_resting_wall(c.air, patch)) walls += s.area_of(patch);
     driven = force > 0.0 ? gradient * c.stop.time / rho : std::sqrt(2.0 * apart / rho);
     if (walls > 0.0) {
       const double diameter = 4.0 * s.volume / walls;
