@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "cases/choices.hpp"
+#include "cases/format/toml_file.hpp"
 
 namespace puffin::cases {
 namespace {
@@ -57,13 +58,7 @@ const EnvelopeRow* row_of(const Case& c, const std::vector<EnvelopeRow>& rows) {
 }  // namespace
 
 std::vector<EnvelopeRow> read_envelope(const std::filesystem::path& file) {
-  toml::table toml;
-  try {
-    toml = toml::parse_file(file.string());
-  } catch (const toml::parse_error& e) {
-    throw std::runtime_error(file.string() + ":" + std::to_string(e.source().begin.line) + ": " +
-                             std::string(e.description()));
-  }
+  const toml::table toml = format::parse_toml(format::read_text(file), file.string());
   const auto* list = toml["setting"].as_array();
   if (list == nullptr) refuse(file, toml, "needs [[setting]]");
   std::vector<EnvelopeRow> rows;

@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "cases/format/toml_file.hpp"
+
 namespace puffin::tools {
 namespace {
 
@@ -46,13 +48,7 @@ void each_table(const toml::table& file, const char* key, const F& body) {
 }  // namespace
 
 StabilityPlan read_stability_plan(const std::filesystem::path& file) {
-  toml::table toml;
-  try {
-    toml = toml::parse_file(file.string());
-  } catch (const toml::parse_error& e) {
-    throw std::runtime_error(file.string() + ":" + std::to_string(e.source().begin.line) + ": " +
-                             std::string(e.description()));
-  }
+  const toml::table toml = cases::format::parse_toml(cases::format::read_text(file), file.string());
   StabilityPlan plan;
   plan.nominal = toml["nominal"].value_or(0.0);
   if (!(plan.nominal > 0.0)) refuse(toml, "needs 'nominal', a lattice speed above 0");
