@@ -22,6 +22,8 @@ struct Skip {
   bool transport_steps = true;    // transport in longer steps than the air's
   bool operator==(const Skip&) const = default;
 };
+/// Of numerics.lattice_speed: what all scenes of `puffin bench stability` run at.
+inline constexpr double default_lattice_speed = 0.10;
 struct Numerics {
   std::optional<double> dx;               // [m]; exactly one of dx and cells is given
   std::optional<std::int64_t> cells;      // wanted number of fluid cells: dx = cbrt(volume / cells)

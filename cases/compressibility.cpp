@@ -14,13 +14,20 @@ namespace puffin::cases {
 namespace {
 
 constexpr double most_change = 0.01;  // of the density
-constexpr double turbulent = 2300.0;  // Reynolds number of the inlet
+constexpr double turbulent = 2300.0;  // Reynolds number above which friction is not laminar
 
 /// Per patch: whether the air rubs on it.
 std::vector<char> resting_walls(const Case& c, const Surface& s) {
   std::vector<char> rests;
   for (const std::string& name : s.patches.names) rests.push_back(is_resting_wall(c.air, name));
   return rests;
+}
+
+double area_of_walls(const Surface& s, const std::vector<char>& rests) {
+  double area = 0.0;
+  for (std::size_t t = 0; t < s.mesh.triangles.size(); ++t)
+    if (rests[s.patches.of_triangle[t]]) area += s.mesh.area(static_cast<int>(t));
+  return area;
 }
 
 /// Length [m] of the patch's edges that it shares with triangles of resting walls.
@@ -44,9 +51,7 @@ double edge_beside_walls(const Surface& s, int patch, const std::vector<char>& r
 /// 8 mu U/D on all resting walls, for the inlet where that is most.
 double laminar_friction(const Case& c, const Surface& s) {
   const std::vector<char> rests = resting_walls(c, s);
-  double walls = 0.0;
-  for (std::size_t t = 0; t < s.mesh.triangles.size(); ++t)
-    if (rests[s.patches.of_triangle[t]]) walls += s.mesh.area(static_cast<int>(t));
+  const double walls = area_of_walls(s, rests);
   const AreaOf area_of = [&](const std::string& patch) { return s.area_of(patch); };
   double most = 0.0;
   for (const Boundary& b : c.air.boundaries) {
@@ -64,10 +69,14 @@ double laminar_friction(const Case& c, const Surface& s) {
   return most;
 }
 
-double pressures_apart(const Air& air) {
+/// Difference of the pressures at the outlets; 0 where the flow is turbulent, in a passage of 4 volume/wall area.
+double laminar_pressures_apart(const Case& c, const Surface& s, double speed) {
+  const std::vector<char> rests = resting_walls(c, s);
+  const double walls = area_of_walls(s, rests);
+  if (walls > 0.0 && reynolds(c.air, speed, 4.0 * s.volume / walls) > turbulent) return 0.0;
   double low = 0.0, high = 0.0;
   bool first = true;
-  for (const Boundary& b : air.boundaries) {
+  for (const Boundary& b : c.air.boundaries) {
     if (b.type != BoundaryType::pressure_outlet) continue;
     low = first ? b.pressure : std::min(low, b.pressure);
     high = first ? b.pressure : std::max(high, b.pressure);
@@ -78,13 +87,13 @@ double pressures_apart(const Air& air) {
 
 }  // namespace
 
-double expected_pressure_difference(const Case& c, const Surface& surface) {
-  return std::max(laminar_friction(c, surface), pressures_apart(c.air));
+double expected_pressure_difference(const Case& c, const Surface& surface, double reference_speed) {
+  return std::max(laminar_friction(c, surface), laminar_pressures_apart(c, surface, reference_speed));
 }
 
 LatticeSpeed lattice_speed(const Case& c, const Surface& surface, double reference_speed) {
   LatticeSpeed result{c.numerics.lattice_speed, {}};
-  const double drop = expected_pressure_difference(c, surface);
+  const double drop = expected_pressure_difference(c, surface, reference_speed);
   const auto change = [&](double u_lb) {
     return 3.0 * drop / c.air.density * (u_lb / reference_speed) * (u_lb / reference_speed);
   };

@@ -22,9 +22,9 @@ struct LatticeSpeed {
 /// The pressure difference [Pa] that a case is known to have before it is run, the larger of
 /// - friction behind its laminar velocity inlets, 8 mu U/D times the wall's area over the inlet's: exact for a pipe
 ///   (Poiseuille), two thirds of it between plates; D = 4 area / edge of the opening beside walls;
-/// - the difference of the pressures at its outlets.
+/// - the difference of the pressures at its outlets, where the reference speed U [m/s] makes a laminar flow.
 /// Narrow passages behind a wide inlet are not seen: the run measures its density at the end.
-double expected_pressure_difference(const Case& c, const Surface& surface);
+double expected_pressure_difference(const Case& c, const Surface& surface, double reference_speed);
 
 /// numerics.lattice_speed, lowered until `expected_pressure_difference` changes the density by at most 1 %. A time step
 /// given in seconds stays, with a warning. reference_speed: U [m/s], positive.

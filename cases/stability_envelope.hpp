@@ -18,7 +18,7 @@ struct EnvelopeRow {
   double runs = 0.0;    // the largest lattice speed up to which every scene ran to its end; 0: none
   double heals = 0.0;   // ... ran, or ran on with smaller steps
   double tried = 0.0;   // the largest lattice speed of the map
-  std::string failure;  // the first scene that did not run, "step-inlet at 0.15"; empty: none
+  std::string failure;  // the first that diverged, else the first that needed smaller steps: "step-inlet at 0.15"
 
   bool operator==(const EnvelopeRow&) const = default;
 };

@@ -80,7 +80,7 @@ std::vector<FinesDrift::WallCell> find_wall_cells(const lbm::Rows& rows, const l
                                                   const lbm::geometry::TriangleTree& tree,
                                                   const std::vector<char>& opening) {
   std::vector<FinesDrift::WallCell> cells;
-  std::vector<lbm::geometry::Feature> found;
+  std::vector<lbm::geometry::Feature> found, beside;
   const std::vector<int> run_of = runs_by_slot(rows);
   for (const lbm::Run& run : rows.runs())
     for (std::ptrdiff_t s = run.first; s < run.first + run.count; ++s) {
@@ -109,7 +109,9 @@ std::vector<FinesDrift::WallCell> find_wall_cells(const lbm::Rows& rows, const l
         const std::ptrdiff_t further =
             rows.active_slot(static_cast<int>(std::lround(in[0])), static_cast<int>(std::lround(in[1])),
                              static_cast<int>(std::lround(in[2])));
-        if (further >= 0) cell.inside = place_of(further, rows.runs()[run_of[further]]);
+        beside.clear();
+        if (further >= 0) tree.near_features(rows.centre(further), 0.6 * rows.dx(), &opening, beside);
+        if (further >= 0 && beside.empty()) cell.inside = place_of(further, rows.runs()[run_of[further]]);
         cells.push_back(cell);
       }
       for (int n = 0; n < count; ++n) {

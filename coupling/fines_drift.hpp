@@ -39,7 +39,9 @@ struct FinesDrift {
     Eigen::Vector3d outward = Eigen::Vector3d::Zero();
     double area = 0.0;
     int triangle = -1;
-    Place inside;  // the cell 1.5 dx from this one's centre, away from the wall; itself where there is none
+    // The cell 1.5 dx from this one's centre, away from the wall; itself where there is none, or where a wall lies
+    // within 0.6 dx of it: nearer than rounding to a cell can bring the own one, so another wall of a narrow gap.
+    Place inside;
   };
   std::vector<WallCell> walls;
 };

@@ -158,7 +158,7 @@ void describe(Fields& io, Numerics& n, AirModel air) {
   } else if (air == AirModel::lbm) {
     io.problem("dx", "give the cell size 'dx' or the number of 'cells'");
   }
-  io.number("lattice_speed", n.lattice_speed, unit::number, Range::positive, otherwise(0.10));
+  io.number("lattice_speed", n.lattice_speed, unit::number, Range::positive, otherwise(default_lattice_speed));
   if (io.word("reference_speed", {"auto"}, n.reference_speed ? -1 : 0, 0) < 0) {
     double value = n.reference_speed.value_or(0.0);
     io.number("reference_speed", value, unit::velocity, Range::positive, required);

@@ -59,7 +59,7 @@ int sense(const std::array<int, 3>& t) { return ((t[0] < t[1]) + (t[1] < t[2]) +
 
 // Of copies with one sense in the majority one stays. Copies that cancel (a wall of no thickness, or the common face of
 // two bodies) all go if every edge keeps at least two triangles without them, else the first stays. `mixed`: groups
-// with both senses too; else only those with one.
+// with both senses too; else only those with one and in one solid.
 Repair remove_duplicates(TriangleMesh& mesh, bool mixed) {
   const Adjacency adjacency(mesh);
   const int n = static_cast<int>(mesh.triangles.size());
@@ -74,7 +74,9 @@ Repair remove_duplicates(TriangleMesh& mesh, bool mixed) {
     int sum = 0;
     for (end = begin; end < n && sorted[order[end]] == sorted[order[begin]]; ++end)
       sum += sense(mesh.triangles[order[end]]);
-    if (end - begin < 2 || (!mixed && std::abs(sum) != end - begin)) continue;
+    const bool one_solid = std::all_of(order.begin() + begin, order.begin() + end,
+                                       [&](int t) { return mesh.solid[t] == mesh.solid[order[begin]]; });
+    if (end - begin < 2 || (!mixed && (std::abs(sum) != end - begin || !one_solid))) continue;
     for (int i = begin; i < end; ++i) keep[order[i]] = 0;
     if (sum != 0) {
       const auto first = std::find_if(order.begin() + begin, order.begin() + end,

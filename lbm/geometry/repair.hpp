@@ -30,8 +30,8 @@ struct Repair {
 /// check_surface to name.
 std::vector<Repair> repair(TriangleMesh& mesh, const RepairOptions& options = {});
 
-/// Of facets that stand several times with one sense all but the first go: nothing is guessed, the surface is the same.
-/// Those that also stand turned round are left. count is 0 where there are none.
+/// Of facets that stand several times with one sense in one solid all but the first go: nothing is guessed, the surface
+/// is the same. Those that also stand turned round are left. count is 0 where there are none.
 Repair remove_copies(TriangleMesh& mesh);
 
 }  // namespace puffin::lbm::geometry

@@ -50,6 +50,8 @@ TEST(ShippedCases, ThePresetFastTakesLargerCellsAndLongerSteps) {
   const Numerics given = read_case(file).numerics, fast = read_case(file, {}, "fast").numerics;
   EXPECT_DOUBLE_EQ(*fast.dx, 1.2 * *given.dx);
   EXPECT_DOUBLE_EQ(fast.lattice_speed, 1.4 * given.lattice_speed);
+  const std::string other = "base = \"" + file.string() + "\"\nname = \"none\"\n[numerics]\nles = \"none\"\n";
+  EXPECT_EQ(parse_case(other, "none.toml", {}, "fast").numerics.lattice_speed, given.lattice_speed);  // heals at 0.15
 }
 
 // Facts of the thesis: 25000 carriers weigh 7.1 mg with their fines. Tolerance: the mass is stated with two digits.

@@ -98,7 +98,7 @@ void Stepping::step() {
 /// Health, memory and checkpoints. All of it at fixed numbers of steps, so that a retreat does not depend on the
 /// clock.
 void Stepping::look_after() {
-  const std::int64_t next = s_.state.air ? s_.models.steps_per_exchange_asleep : 0;  // more than one interval has
+  const std::int64_t next = s_.state.air ? s_.models.steps_per_exchange_asleep : 1;  // more than one interval has
   if (steps() - checked_ + next <= steps_between_checks) return;
   health_.check(s_.models, s_.state);
   checked_ = steps();

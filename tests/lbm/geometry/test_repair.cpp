@@ -83,6 +83,10 @@ TEST(Repair, CopiesOfOneSenseGoAloneToo) {
   EXPECT_EQ(mesh.triangles, before);
   EXPECT_EQ(remove_copies(mesh).count, 0u);
   const auto turned = std::array<int, 3>{before[4][1], before[4][0], before[4][2]};
+  mesh.solids.emplace_back("another");
+  mesh.triangles.push_back(before[9]);  // in another solid: to which patch it belongs is not ours to say
+  mesh.solid.push_back(static_cast<int>(mesh.solids.size()) - 1);
+  EXPECT_EQ(remove_copies(mesh).count, 0u);
   mesh.triangles.push_back(turned);  // both senses: which of them is meant is not ours to say
   mesh.solid.push_back(0);
   EXPECT_EQ(remove_copies(mesh).count, 0u);

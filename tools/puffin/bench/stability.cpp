@@ -149,11 +149,15 @@ json bench_stability(const BenchArguments& a) {
   const StabilityPlan plan = read_stability_plan(folder / "stability.toml");
   const Workshop place(folder);
   json rows = json::array();
+  bool whole = !a.quick && a.only.empty();
   if (!a.json) print("scene                variation         u_lb     steps   seconds  outcome");
   for (const StabilityTrial& trial : trials_of(plan, a.quick)) {
     if (!a.only.empty() && std::find(a.only.begin(), a.only.end(), trial.scene->name) == a.only.end()) continue;
     const json made = make_row(trial, place);
-    if (made["outcome"] == "interrupted") break;
+    if (made["outcome"] == "interrupted") {
+      whole = false;
+      break;
+    }
     rows.push_back(made);
     if (a.json) continue;
     const json& row = rows.back();
@@ -167,7 +171,7 @@ json bench_stability(const BenchArguments& a) {
   if (!a.out.empty()) {
     const std::filesystem::path out(a.out);
     output::write_whole(out / "stability.svg", stability_map(rows));
-    if (!a.quick) output::write_whole(out / "envelope.toml", cases::write_envelope(envelope_of(plan, folder, rows)));
+    if (whole) output::write_whole(out / "envelope.toml", cases::write_envelope(envelope_of(plan, folder, rows)));
   }
   return rows;
 }

@@ -52,11 +52,12 @@ std::vector<cases::EnvelopeRow> envelope_of(const StabilityPlan& plan, const std
       AtSpeed& at = tried[place][row["u_lb"].get<double>()];
       const std::string outcome = row["outcome"];
       if (outcome == "ok") continue;
+      const bool first = at.ran, first_divergence = at.went_on && outcome != "healed";
       at.ran = false;
       if (outcome != "healed") at.went_on = false;
       char speed[32];
       std::snprintf(speed, sizeof speed, " at %g", row["u_lb"].get<double>());
-      if (at.failure.empty() || outcome != "healed") at.failure = row["scene"].get<std::string>() + speed;
+      if (first || first_divergence) at.failure = row["scene"].get<std::string>() + speed;
     }
   }
   for (std::size_t n = 0; n < envelope.size(); ++n) {
