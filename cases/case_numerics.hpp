@@ -17,7 +17,7 @@ enum class Precision { float32, float64 };
 struct Skip {
   bool sleeping_carriers = true;  // carriers at rest are not moved until something disturbs them
   bool resting_exchange = true;   // fewer exchanges with the air while every carrier rests
-  bool idle_transport = true;     // no transport before the first fine is airborne
+  bool idle_transport = true;     // no transport of a scalar while next to none of it is airborne
   bool empty_cells = true;        // no transport where there are no fines nearby
   bool transport_steps = true;    // transport in longer steps than the air's
   bool operator==(const Skip&) const = default;

@@ -18,7 +18,6 @@ void move_fines(const Models& models, std::int64_t steps, double interval, State
   if (s.scalars.scalars() == 0 || !s.air) return;
   if (models.fines) {
     const Stopwatch watch(s.effort.fines);
-    const double before = s.fines.to_air[0].value() + s.fines.to_air[1].value() + s.fines.to_air[2].value();
     s.release.by_contacts(s.events.begun, counted_from(models, s), s.carriers.carriers, *models.fines, s.cells, s.fines,
                           s.scalars);
     const auto& c = s.carriers.carriers;
@@ -29,10 +28,21 @@ void move_fines(const Models& models, std::int64_t steps, double interval, State
     if (models.regain && s.airborne)
       reattach(s.stencils, slip, interval, s.scale.dx, c, *models.regain, s.fines, s.scalars);
     const double after = s.fines.to_air[0].value() + s.fines.to_air[1].value() + s.fines.to_air[2].value();
-    s.airborne = s.airborne || after > before;
+    s.airborne = s.airborne || after > models.scalars.negligible;
   }
   s.steps_since_scalars += steps;
   if (!s.airborne) s.effort.scalar_steps_off += steps;
+}
+
+double steps_per_update(double allowed, std::int64_t exchange) {
+  const double longest = std::clamp(std::floor(allowed), 1.0, 64.0);
+  const auto e = static_cast<double>(exchange);
+  if (e <= longest) return longest;
+  double best = e;
+  const auto cost = [&](double steps) { return std::ceil(steps / allowed * (1.0 - 1e-12)) / steps; };
+  for (const double steps : {2.0 * e, 3.0 * e})
+    if (steps <= 64.0 && cost(steps) < cost(best) * (1.0 - 1e-12)) best = steps;
+  return best;
 }
 
 void carry_fines(const Models& models, bool now, State& s) {
@@ -63,7 +73,7 @@ void carry_fines(const Models& models, bool now, State& s) {
   try {
     const double allowed = lbm::advance_scalars(s.air->rows, s.fluxes, static_cast<double>(s.steps_since_scalars),
                                                 options, s.scalars, s.budget);
-    s.steps_per_scalar_update = models.transport_steps ? std::clamp(std::floor(allowed), 1.0, 64.0) : 1.0;
+    s.steps_per_scalar_update = models.transport_steps ? steps_per_update(allowed, models.steps_per_exchange) : 1.0;
   } catch (const std::runtime_error& e) {
     diverge("%s (t = %.6g s)", e.what(), s.time);
   }

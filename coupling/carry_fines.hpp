@@ -13,6 +13,12 @@ std::optional<double> counted_from(const Models& models, const State& s);
 /// Takes fines off the carriers by the contacts and the slip of an interval of `steps` air steps, `interval` [s].
 void move_fines(const Models& models, std::int64_t steps, double interval, State& s);
 
+/// How many air steps an update of the fines' transport covers, if the flow allows `allowed` of them in one sub-step
+/// (>= 1 assumed, 64 at most): a multiple of the exchange interval (>= 1) if one sub-step holds it; else up to three
+/// intervals, those with the fewest sub-steps an air step. Longer is not taken: what is released in an update is
+/// carried over all of it, and the fluxes are those of its end.
+double steps_per_update(double allowed, std::int64_t exchange);
+
 /// Carries the airborne fines over the steps since the last time: `now`, or when the next exchange could exceed the CFL
 /// limit. Throws Diverged.
 void carry_fines(const Models& models, bool now, State& s);

@@ -79,7 +79,7 @@ struct Models {
       triangle_of_slot;        // where walls can take fines: the nearest triangle to a cell beside a wall, else -1
   int steps_per_exchange = 5;  // air steps between two exchanges with moving carriers
   int steps_per_exchange_asleep = 16;
-  bool idle_transport = true;   // leave the transport out until fines are airborne
+  bool idle_transport = true;   // leave the transport out until more than scalars.negligible fines are airborne
   bool transport_steps = true;  // transport in longer steps than the exchange interval where the flow allows it
 };
 
@@ -101,7 +101,7 @@ struct StencilPlaces {
 struct Effort {
   double air = 0.0, links = 0.0, exchange = 0.0, carriers = 0.0, fines = 0.0, scalars = 0.0;  // [s]
   std::int64_t exchanges = 0, exchanges_saved = 0;      // saved: while every carrier slept
-  std::int64_t scalar_steps = 0, scalar_steps_off = 0;  // off: air steps before anything was airborne
+  std::int64_t scalar_steps = 0, scalar_steps_off = 0;  // off: air steps before that
   std::int64_t rescalings = 0;
   double steps_at_reference_dt = 0.0;  // air steps that a fixed time step would have taken
 };
@@ -151,7 +151,7 @@ struct State {
   std::int64_t steps_since_scalars = 0;
   double seconds_since_scalars = 0.0;
   double steps_per_scalar_update = 1.0;
-  bool airborne = false;      // fines have been released
+  bool airborne = false;      // enough fines have been released to carry them
   DriftVelocity fines_drift;  // empty without Models::drift
 
   Effort effort;

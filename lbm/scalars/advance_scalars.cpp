@@ -33,6 +33,7 @@ struct Update {
   ScalarFields& fields;
   ScalarBudget& budget;
 
+  const std::vector<int>& moving() const { return fields.work.moving; }
   double* concentration(int k) const { return fields.work.concentration.data() + k * rows.slots(); }
   double* out_high(int k) const { return fields.work.out_high.data() + k * rows.slots(); }
   double* out_low(int k) const { return fields.work.out_low.data() + k * rows.slots(); }
@@ -43,7 +44,7 @@ struct Update {
     const auto& chunks = rows.chunks();
     tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {
       const FlushToZero flush;
-      std::vector<SweepScalar> scalars(fields.scalars());
+      std::vector<SweepScalar> scalars(moving().size());
       for (int r = chunks[c].first_run; r < chunks[c].last_run; ++r)
         if (fields.work.computed[r]) visit(rows.runs()[r], scalars);
     });
@@ -103,7 +104,7 @@ void prepare(const Update& u, double elapsed) {
         for (std::ptrdiff_t s = run.first; s < run.first + run.count; ++s)
           air[s] -= elapsed * ((open[s] ? mass[s] : 0.0) - (open[s + low] ? mass[s + low] : 0.0));
       }
-    for (int k = 0; k < u.fields.scalars(); ++k) {
+    for (const int k : u.moving()) {
       const double* amount = u.fields.amount[k].data();
       double* y = u.concentration(k);
       for (std::ptrdiff_t s = run.first; s < run.first + run.count; ++s)
@@ -130,7 +131,7 @@ void exchange_openings(const Update& u, int d, double steps, const std::vector<d
     if (u.fluxes.open[d][at] != 2) continue;
     const double flux = steps * u.fluxes.mass[d][at];
     const double inflow = std::max(face.ghost_is_high ? -flux : flux, 0.0);
-    for (int k = 0; k < u.fields.scalars(); ++k) {
+    for (const int k : u.moving()) {
       double& out = face.ghost_is_high ? u.out_high(k)[face.cell] : u.out_low(k)[face.cell];
       double& in = face.ghost_is_high ? u.out_low(k)[face.ghost] : u.out_high(k)[face.ghost];
       const auto value = fixed_value(u.options.scalar[k], face.patch);
@@ -146,15 +147,18 @@ void sweep(const Update& u, const SweepKernel& kernel, int d, double steps, cons
            bool drifts) {
   if (u.rows.box()[d] == 1 && u.rows.periodic()[d]) return;  // one cell, its own neighbour
   const ScalarWork& work = u.fields.work;
-  const int scalars = u.fields.scalars();
+  const std::vector<int>& moving = u.moving();
+  const int scalars = static_cast<int>(moving.size());
   const auto view = [&](const Run& run, std::vector<SweepScalar>& views) {
-    for (int k = 0; k < scalars; ++k)
-      views[k] = {u.options.scalar[k].scheme,
+    for (int n = 0; n < scalars; ++n) {
+      const int k = moving[n];
+      views[n] = {u.options.scalar[k].scheme,
                   exchange[k],
                   u.fields.amount[k].data() + run.first,
                   u.concentration(k) + run.first,
                   u.out_high(k) + run.first,
                   u.out_low(k) + run.first};
+    }
     return SweepRun{run.count,
                     offset_low(run, d),
                     offset_high(run, d),
@@ -165,7 +169,7 @@ void sweep(const Update& u, const SweepKernel& kernel, int d, double steps, cons
                     u.fluxes.eddy[d].empty() ? nullptr : u.fluxes.eddy[d].data() + run.first,
                     drifts ? u.fluxes.drift[d].data() + run.first : nullptr};
   };
-  for (int k = 0; k < scalars; ++k)
+  for (const int k : moving)
     for (const auto& [ghost, cell] : work.periodic[d]) u.concentration(k)[ghost] = u.concentration(k)[cell];
   const auto update = [&](const Run& run, std::vector<SweepScalar>& views) {
     kernel.update(view(run, views), views.data(), scalars);
@@ -179,14 +183,14 @@ void sweep(const Update& u, const SweepKernel& kernel, int d, double steps, cons
       if (!work.computed[r]) continue;
       const Run& run = u.rows.runs()[r];
       kernel.outgoing(view(run, views), views.data(), scalars);
-      for (int k = 0; k < scalars; ++k)
+      for (const int k : moving)
         if (u.options.scalar[k].wall == WallRule::absorb && exchange[k] > 0.0) absorb(u, d, run, k, exchange[k]);
       if (d == 0 && work.local[d][r]) update(run, views);  // no other run lies beside it in x
     }
     for (int r = chunks[c].first_run; r < chunks[c].last_run; ++r)
       if (d != 0 && work.computed[r] && work.local[d][r]) update(u.rows.runs()[r], views);
   });
-  for (int k = 0; k < scalars; ++k)
+  for (const int k : moving)
     for (const auto& [ghost, cell] : work.periodic[d]) {
       u.out_high(k)[ghost] = u.out_high(k)[cell];
       u.out_low(k)[ghost] = u.out_low(k)[cell];
@@ -195,7 +199,7 @@ void sweep(const Update& u, const SweepKernel& kernel, int d, double steps, cons
   u.for_each_run([&](const Run& run, std::vector<SweepScalar>& views) {
     if (!work.local[d][work.run_of[run.first]]) update(run, views);
   });
-  for (int k = 0; k < scalars; ++k) {  // a ghost may lie beside other cells in the other directions
+  for (const int k : moving) {  // a ghost may lie beside other cells in the other directions
     for (const auto& face : work.openings[d]) u.out_high(k)[face.ghost] = u.out_low(k)[face.ghost] = 0.0;
     for (const auto& [ghost, cell] : work.periodic[d]) u.out_high(k)[ghost] = u.out_low(k)[ghost] = 0.0;
   }
@@ -232,7 +236,7 @@ double largest_eddy(const FaceFluxes& fluxes) {
 Plan plan(const Update& u, const StepLimit& limit, double eddy, double share, double remaining) {
   double longest = std::min({limit.steps, share, remaining});
   Plan p{longest, false, std::vector<bool>(u.fields.scalars(), false)};
-  for (int k = 0; k < u.fields.scalars(); ++k) {
+  for (const int k : u.moving()) {
     const ScalarLaw& law = u.options.scalar[k];
     if (law.diffusivity + eddy == 0.0) continue;
     const double rate = u.options.cfl / limit.steps;
@@ -262,6 +266,7 @@ double advance_scalars(const Rows& rows, const FaceFluxes& fluxes, double steps,
   for (const ScalarLaw& law : options.scalar)
     for (const auto& value : law.fixed) all = all || (value && *value > 0.0);
 
+  mark_moving_scalars(rows, options, fields);
   const double eddy = largest_eddy(fluxes);
   budget.air_mismatch = std::max(budget.air_mismatch, air_mismatch(u));
   std::vector<LimitFound> limits;
@@ -286,15 +291,14 @@ double advance_scalars(const Rows& rows, const FaceFluxes& fluxes, double steps,
     const bool drifts = !fluxes.drift[0].empty();
     if (drifts && p.any_implicit) p.implicit.assign(fields.scalars(), true);
     std::vector<double> exchange(fields.scalars());
-    for (int k = 0; k < fields.scalars(); ++k)
-      exchange[k] = p.implicit[k] ? 0.0 : p.steps * options.scalar[k].diffusivity;
+    for (const int k : u.moving()) exchange[k] = p.implicit[k] ? 0.0 : p.steps * options.scalar[k].diffusivity;
     const auto sweep_all = [&] {
       for (int n = 0; n < 3; ++n)
         sweep(u, kernel, fields.reversed ? 2 - n : n, p.steps, exchange, drifts && !p.any_implicit);
     };
     const auto diffuse_all = [&] {
       for (int n = 0; n < 3; ++n)
-        for (int k = 0; k < fields.scalars(); ++k)
+        for (const int k : u.moving())
           if (p.implicit[k])
             diffuse_lines(rows, fluxes, fields.reversed ? 2 - n : n, k, options.scalar[k], p.steps, fields, budget);
     };
@@ -302,7 +306,7 @@ double advance_scalars(const Rows& rows, const FaceFluxes& fluxes, double steps,
     if (fields.reversed) diffuse_all();
     sweep_all();
     if (!fields.reversed) diffuse_all();
-    take_at_walls(fluxes, p.steps, fields, budget);
+    take_at_walls(fluxes, p.steps, u.moving(), fields, budget);
     fields.reversed = !fields.reversed;
     ++budget.sub_steps;
     for (std::size_t r = 0; r < rows.runs().size(); ++r)

@@ -26,17 +26,32 @@ std::vector<double> run_sums(const Rows& rows, const std::vector<double>& amount
   return sums;
 }
 
+double sum_of(const std::vector<double>& sums) {
+  double everything = 0.0;
+  for (const double s : sums) everything += s;
+  return everything;
+}
+
 }  // namespace
+
+void mark_moving_scalars(const Rows& rows, const ScalarOptions& options, ScalarFields& fields) {
+  fields.work.moving.clear();
+  for (int k = 0; k < fields.scalars(); ++k) {
+    const auto& fixed = options.scalar[k].fixed;
+    const bool brought = std::any_of(fixed.begin(), fixed.end(), [](const auto& v) { return v && *v > 0.0; });
+    if (!(options.negligible > 0.0) || brought || sum_of(run_sums(rows, fields.amount[k])) > options.negligible)
+      fields.work.moving.push_back(k);
+  }
+}
 
 bool mark_busy_runs(const Rows& rows, bool all, ScalarFields& fields) {
   ScalarWork& work = fields.work;
   const std::size_t runs = rows.runs().size();
   std::vector<std::uint8_t> busy(runs, all);
   if (!all) {
-    for (const auto& amount : fields.amount) {
-      const std::vector<double> sums = run_sums(rows, amount);
-      double everything = 0.0;
-      for (const double s : sums) everything += s;
+    for (const int k : work.moving) {
+      const std::vector<double> sums = run_sums(rows, fields.amount[k]);
+      const double everything = sum_of(sums);
       for (std::size_t r = 0; r < runs; ++r)
         if (sums[r] > 1e-30 * everything) busy[r] = 1;
     }

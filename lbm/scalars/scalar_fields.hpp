@@ -39,6 +39,8 @@ struct ScalarOptions {
   /// Leave out runs that hold nothing (less than 1e-30 of the scalar) and have no neighbour that does. Changes nothing
   /// else: the sub-steps come from the whole flow.
   bool skip_empty = true;
+  /// A scalar of which the domain holds no more than this rests where it is until there is more; 0: none rests.
+  double negligible = 0.0;
 };
 
 /// What passed the boundaries since the start, in amounts.
@@ -74,6 +76,7 @@ struct ScalarWork {
   std::vector<double> concentration;                                // [scalar * slots + slot]
   std::vector<double> out_high, out_low;                            // [scalar * slots + slot] leaves through a face
   std::vector<std::uint8_t> computed;                               // [run] taking part in this update
+  std::vector<int> moving;                                          // the scalars that do
   std::array<std::vector<std::int32_t>, 3> line_slots, line_begin;  // [d] lines of cells for implicit diffusion
   std::array<std::vector<std::uint8_t>, 3> line_closes;             // [d][line] its ends are periodic neighbours
   bool checked = false;                                             // the fluxes have been checked

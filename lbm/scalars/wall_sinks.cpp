@@ -7,13 +7,14 @@
 
 namespace puffin::lbm {
 
-void take_at_walls(const FaceFluxes& fluxes, double steps, ScalarFields& fields, ScalarBudget& budget) {
+void take_at_walls(const FaceFluxes& fluxes, double steps, const std::vector<int>& scalars, ScalarFields& fields,
+                   ScalarBudget& budget) {
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, fluxes.sinks.size(), 512), [&](const auto& range) {
     for (std::size_t n = range.begin(); n != range.end(); ++n) {
       const auto& [slot, rate] = fluxes.sinks[n];
       if (!(rate > 0.0)) continue;
       const double part = -std::expm1(-rate * steps);
-      for (int k = 0; k < fields.scalars(); ++k) {
+      for (const int k : scalars) {
         double& amount = fields.amount[k][slot];
         if (!(amount > 0.0)) continue;
         const double before = amount;

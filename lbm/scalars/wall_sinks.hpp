@@ -7,9 +7,10 @@
 
 namespace puffin::lbm {
 
-/// The sinks of `fluxes` take over `steps` air steps the part 1 - exp(-rate steps) of every scalar in their cells:
-/// exact while a cell's rate stays, never more than is there, whatever the step. Booked in absorbed_at, as the
+/// The sinks of `fluxes` take over `steps` air steps the part 1 - exp(-rate steps) of every given scalar in their
+/// cells: exact while a cell's rate stays, never more than is there, whatever the step. Booked in absorbed_at, as the
 /// difference of the rounded amounts. The sinks' slots must differ.
-void take_at_walls(const FaceFluxes& fluxes, double steps, ScalarFields& fields, ScalarBudget& budget);
+void take_at_walls(const FaceFluxes& fluxes, double steps, const std::vector<int>& scalars, ScalarFields& fields,
+                   ScalarBudget& budget);
 
 }  // namespace puffin::lbm

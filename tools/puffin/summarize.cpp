@@ -155,7 +155,7 @@ std::vector<output::SkippedWork> skipped(const cases::Simulation& s) {
                     moved > 0.0 ? static_cast<double>(d.sleeping_steps) * e.carriers / moved : 0.0});
   }
   if (e.scalar_steps_off > 0)
-    list.push_back({"transport of fines before the first release", e.scalar_steps_off,
+    list.push_back({"transport of fines while next to none are airborne", e.scalar_steps_off,
                     e.scalar_steps > 0
                         ? static_cast<double>(e.scalar_steps_off) * e.scalars / static_cast<double>(e.scalar_steps)
                         : 0.0});

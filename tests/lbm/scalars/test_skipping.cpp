@@ -42,6 +42,28 @@ TEST(Skipping, changes_nothing_that_a_sum_could_see) {
   EXPECT_EQ(b[0].cells_computed, b[1].cells_computed + b[1].cells_skipped);
 }
 
+TEST(Skipping, a_scalar_of_next_to_nothing_rests_until_there_is_more) {
+  Scene s = stirred();
+  const double steps = max_steps(s.rows, s.fluxes, 0.8);
+  ScalarFields together = s.fields(2), alone = s.fields(1);
+  ScalarBudget b2 = s.budget(2), b1 = s.budget(1);
+  ScalarOptions both{{{Scheme::mc, 1e-5}, {Scheme::mc, 0.0}}}, one{{{Scheme::mc, 1e-5}}};
+  both.negligible = 1e-9;
+  together.amount[0][s.at(3, 3, 3)] = alone.amount[0][s.at(3, 3, 3)] = 1.0;
+  together.amount[1][s.at(9, 9, 6)] = 1e-10;
+  for (int n = 0; n < 5; ++n) {
+    advance_scalars(s.rows, s.fluxes, steps, both, together, b2);
+    advance_scalars(s.rows, s.fluxes, steps, one, alone, b1);
+  }
+  EXPECT_EQ(together.amount[0], alone.amount[0]);  // to the bit
+  EXPECT_EQ(together.amount[1][s.at(9, 9, 6)], 1e-10);
+
+  together.amount[1][s.at(9, 9, 6)] += 1.0;
+  for (int n = 0; n < 5; ++n) advance_scalars(s.rows, s.fluxes, steps, both, together, b2);
+  EXPECT_LT(together.amount[1][s.at(9, 9, 6)], 0.9);
+  EXPECT_NEAR(total(together, 1), 1.0 + 1e-10, 1e-14);
+}
+
 TEST(Skipping, forgets_a_cloud_that_has_left) {
   Scene s = make_scene({30, 4, 4}, {false, false, false}, true);
   set_flow(s, [](int d, int, int, int) { return d == 0 ? 0.1 : 0.0; });
