@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -14,6 +13,7 @@
 #include "lbm/scalars/diffuse_lines.hpp"
 #include "lbm/scalars/max_steps.hpp"
 #include "lbm/scalars/run_faces.hpp"
+#include "lbm/scalars/sub_step.hpp"
 #include "lbm/scalars/sweep.hpp"
 #include "lbm/scalars/wall_sinks.hpp"
 
@@ -205,56 +205,6 @@ void sweep(const Update& u, const SweepKernel& kernel, int d, double steps, cons
   }
 }
 
-/// The most steps that explicit diffusion allows inside a sweep, see sweep.hpp: with nu = steps * rate, the air never
-/// below half,
-///   faces * steps * diffusivity <= (1 - nu)^2 * least_air / 2.
-double explicit_steps(const ScalarLaw& law, double diffusivity, double rate, double least_air) {
-  const bool half_cells = law.wall == WallRule::absorb ||
-                          std::any_of(law.fixed.begin(), law.fixed.end(), [](const auto& v) { return v.has_value(); });
-  const double b = (half_cells ? 4.0 : 2.0) * diffusivity / (0.5 * least_air);
-  const double p = 2.0 * rate + b;
-  return 2.0 / (p + std::sqrt(std::max(p * p - 4.0 * rate * rate, 0.0)));
-}
-
-/// Which scalars diffuse inside the sweeps, and the length of the sub-step.
-struct Plan {
-  double steps;
-  bool any_implicit;
-  std::vector<bool> implicit;  // [scalar]
-};
-
-/// Largest diffusivity that all scalars have in common.
-double largest_eddy(const FaceFluxes& fluxes) {
-  double largest = 0.0;
-  for (const auto& faces : fluxes.eddy)
-    for (const double e : faces) largest = std::max(largest, e);
-  return largest;
-}
-
-/// `share`: no sub-step is longer. It comes from the whole flow, so that a scalar's steps do not depend on where other
-/// scalars are.
-Plan plan(const Update& u, const StepLimit& limit, double eddy, double share, double remaining) {
-  double longest = std::min({limit.steps, share, remaining});
-  Plan p{longest, false, std::vector<bool>(u.fields.scalars(), false)};
-  for (const int k : u.moving()) {
-    const ScalarLaw& law = u.options.scalar[k];
-    if (law.diffusivity + eddy == 0.0) continue;
-    const double rate = u.options.cfl / limit.steps;
-    double allowed = explicit_steps(law, law.diffusivity + eddy, rate, limit.least_air);
-    if (1.5 * allowed < longest && law.diffusivity > 0.0) {
-      p.any_implicit = p.implicit[k] = true;
-      if (eddy == 0.0) continue;
-      allowed = explicit_steps(law, eddy, rate, limit.least_air);  // its eddy part stays in the sweeps
-    }
-    p.steps = std::min(p.steps, allowed);
-  }
-  const double pieces = std::ceil(remaining / p.steps * (1.0 - 1e-12));
-  if (!(pieces < 1e4))
-    throw std::runtime_error("scalars: the air's mass fluxes would empty a cell; is the flow still sound?");
-  p.steps = remaining / std::max(pieces, 1.0);
-  return p;
-}
-
 }  // namespace
 
 double advance_scalars(const Rows& rows, const FaceFluxes& fluxes, double steps, const ScalarOptions& options,
@@ -282,7 +232,8 @@ double advance_scalars(const Rows& rows, const FaceFluxes& fluxes, double steps,
     } else {
       find_limits(rows, fluxes, fields.air, options.cfl, fields.work.computed, limits);
     }
-    Plan p = plan(u, strictest(limits, options.cfl, fields.work.computed), eddy, share, steps - elapsed);
+    SubStep p = plan_sub_step(strictest(limits, options.cfl, fields.work.computed), options, u.moving(), eddy, share,
+                              steps - elapsed);
     if (p.any_implicit && !all) {  // lines carry it everywhere at once
       all = true;
       continue;

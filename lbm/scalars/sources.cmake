@@ -6,6 +6,7 @@ set(PUFFIN_SCALAR_SOURCES
   scalars/diffuse_lines.cpp
   scalars/max_steps.cpp
   scalars/scalar_fields.cpp
+  scalars/sub_step.cpp
   scalars/sweep_avx2.cpp
   scalars/sweep_avx512.cpp
   scalars/sweep_baseline.cpp

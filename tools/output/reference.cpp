@@ -39,10 +39,12 @@ std::optional<double> find_value(const Summary& summary, const std::string& name
   Json json = Json::parse(summary_json(summary));
   json.erase("reference");
   if (const auto found = find_path(json, name)) return found;
+  if (!summary.fines.empty())  // the first scalar's: by_mechanism.wall
+    if (const auto found = find_path(json["fines"][summary.fines[0].name], name)) return found;
   const std::size_t dot = name.find('.');
   const std::string head = name.substr(0, dot);
   if (dot == std::string::npos || (head != "thesis" && head != "experiment" && head != "simulation")) return {};
-  return find_path(json, name.substr(dot + 1));
+  return find_value(summary, name.substr(dot + 1));
 }
 
 void compare_with_reference(Summary& summary, const std::vector<ReferenceValue>& given) {

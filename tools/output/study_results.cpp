@@ -53,15 +53,6 @@ constexpr std::array<const char*, 28> quantities{"FFE",
                                                  "memory_peak",
                                                  "wall_clock"};
 
-std::optional<double> value_of(const Summary& s, const std::string& key) {
-  if (key == "by_mechanism.wall" || key == "by_mechanism.particle" || key == "by_mechanism.drag") {
-    if (s.fines.empty()) return {};
-    const MechanismShares& m = s.fines[0].by_mechanism;
-    return key.ends_with("wall") ? m.wall : key.ends_with("drag") ? m.drag : m.particle;
-  }
-  return find_value(s, key);
-}
-
 std::string text(const Json& json, const char* key) {
   return json.contains(key) && json[key].is_string() ? json[key].get<std::string>() : "";
 }
@@ -123,7 +114,7 @@ StudyCaseResult case_of(const Json& described, const Json& jobs, const fs::path&
     std::vector<double> values;
     for (const StudyRun& run : c.runs)
       if (run.summary)
-        if (const auto value = value_of(*run.summary, name); value && std::isfinite(*value)) values.push_back(*value);
+        if (const auto value = find_value(*run.summary, name); value && std::isfinite(*value)) values.push_back(*value);
     if (!values.empty()) c.numbers.emplace_back(name, estimate(values));
   }
   return c;
@@ -211,7 +202,7 @@ void write_study_tables(const StudyResults& results, const fs::path& study) {
     for (const StudyRun& run : c.runs) {
       if (!run.summary) runs.append({c.name, run.folder, run.scalar, run.state, double(run.exit_code), "", ""});
       for (const std::string name : quantities)
-        if (const auto value = run.summary ? value_of(*run.summary, name) : std::nullopt)
+        if (const auto value = run.summary ? find_value(*run.summary, name) : std::nullopt)
           runs.append({c.name, run.folder, run.scalar, run.state, double(run.exit_code), name, *value});
     }
   }

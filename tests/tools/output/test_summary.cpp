@@ -146,6 +146,7 @@ TEST(Reference, NamesAreFoundByKeyByPathAndByMean) {
   EXPECT_EQ(find_value(s, "static_drop"), 2400.0);
   EXPECT_EQ(find_value(s, "pressure.total_to_static_drop.ci_high"), 2650.0);
   EXPECT_EQ(find_value(s, "experiment.FFE"), 0.67);
+  EXPECT_EQ(find_value(s, "thesis.by_mechanism.wall"), s.fines[0].by_mechanism.wall);
   EXPECT_EQ(find_value(s, "collisions.wall"), 232560);
   EXPECT_EQ(find_value(s, "collisions.FFE"), std::nullopt);
   EXPECT_EQ(find_value(s, "FFX"), std::nullopt);

@@ -230,7 +230,7 @@ std::string collisions(const Run& run) {
       table({"median number of collisions", ""}, {{"of all carriers", significant(c.median_per_carrier)},
                                                   {"of emitted carriers", significant(c.median_per_emitted_carrier)}});
   if (c.largest_overlap)
-    out += paragraph("Largest overlap of a contact: " + percent(*c.largest_overlap) + " of a diameter.");
+    out += "<p>Largest overlap of a contact: " + percent(*c.largest_overlap) + " of a diameter.</p>\n";
   return out +
          paragraph("Counted per single carrier: a parcel of ten counts ten times, a contact once for each partner.");
 }
