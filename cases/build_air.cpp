@@ -147,8 +147,8 @@ void build_frozen_cells(Simulation& s) {
   rule.reference_dt = c.stop.time / 100.0;
   if (speed > 0.0)
     rule.reference_dt = std::min(rule.reference_dt, c.numerics.lattice_speed * s.dx / speed);
-  else if (diffusivity > 0.0)
-    rule.reference_dt = std::min(rule.reference_dt, 0.1 * s.dx * s.dx / diffusivity);
+  else if (diffusivity > 0.0)  // 16 of these, the interval of a scene at rest, are what diffusion follows
+    rule.reference_dt = std::min(rule.reference_dt, 0.03 * s.dx * s.dx / diffusivity);
   if (c.numerics.time_step == TimeStepRule::given) rule.reference_dt = c.numerics.time_step_seconds;
   LatticeNumbers numbers;
   numbers.dt = rule.reference_dt;

@@ -3,6 +3,7 @@
 
 #include "cases/build.hpp"
 #include "cases/micromodel_file.hpp"
+#include "coupling/carry_fines.hpp"
 #include "coupling/frozen_fluxes.hpp"
 #include "coupling/regain_fines.hpp"
 
@@ -129,7 +130,10 @@ constexpr double resting_part = 1e-9;
 void build_fines(Simulation& s) {
   const Fines& f = *s.description.fines;
   if (!f.micromodels.empty()) s.models.fines = read_micromodels(f.micromodels);
-  if (!s.state.air) return;
+  if (!s.state.air) {
+    build_regain(s);
+    return coupling::keep_fines_in_one_place(static_cast<int>(f.scalars.size()), s.state);
+  }
   const lbm::Air& air = *s.state.air;
   s.state.routes = lbm::find_routes(air, s.state.fluxes);
   if (s.models.frozen_air)

@@ -103,7 +103,11 @@ double dose_mass(const Carriers& c) {
 }
 
 double fines_diameter(const Carriers& c, double fines_density) {
-  return c.diameter * std::cbrt(c.fine_mass_ratio * c.density / fines_density);
+  // Of a list without carriers.diameter: its first carrier.
+  const bool first = !(c.diameter > 0.0) && !c.list.empty();
+  const double diameter = first ? c.list.front().diameter : c.diameter;
+  const double density = first ? c.list.front().density : c.density;
+  return diameter * std::cbrt(c.fine_mass_ratio * density / fines_density);
 }
 
 }  // namespace puffin::cases

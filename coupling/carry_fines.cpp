@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "coupling/air_steps.hpp"
 #include "coupling/divergence.hpp"
@@ -14,14 +15,27 @@ std::optional<double> counted_from(const Models& models, const State& s) {
   return models.settling ? s.first_motion.time() : std::optional(0.0);
 }
 
+void keep_fines_in_one_place(int sets, State& s) {
+  const auto scalars = static_cast<std::size_t>(mechanisms * sets);
+  s.scalars = lbm::ScalarFields();
+  s.scalars.amount.assign(scalars, {0.0});
+  s.scalars.air.assign(1, 0.0);
+  s.budget = lbm::ScalarBudget();
+  s.budget.left.resize(scalars);
+  s.budget.entered.resize(scalars);
+  s.budget.absorbed_at.assign(scalars, {0.0});
+  s.fines.placed.assign(static_cast<std::size_t>(sets), 0.0);
+}
+
 void move_fines(const Models& models, std::int64_t steps, double interval, State& s) {
-  if (s.scalars.scalars() == 0 || !s.air) return;
+  if (s.scalars.scalars() == 0) return;
   if (models.fines) {
     const Stopwatch watch(s.effort.fines);
     s.release.by_contacts(s.events.begun, counted_from(models, s), s.carriers.carriers, *models.fines, s.cells, s.fines,
                           s.scalars);
     const auto& c = s.carriers.carriers;
     if (models.regain) pick_up_from_walls(s.events.begun, counted_from(models, s), c, *models.regain, s.fines);
+    if (!s.air) return;  // nothing blows, nothing is carried on
     std::vector<double> slip(c.size());
     for (std::size_t p = 0; p < c.size(); ++p) slip[p] = (s.loads[p].air_velocity - c.velocity[p]).norm();
     s.release.by_drag(s.stencils, slip, interval, c, *models.fines, s.fines, s.scalars);
@@ -32,6 +46,12 @@ void move_fines(const Models& models, std::int64_t steps, double interval, State
   }
   s.steps_since_scalars += steps;
   if (!s.airborne) s.effort.scalar_steps_off += steps;
+}
+
+double steps_diffusion_follows(const lbm::ScalarOptions& options) {
+  double diffusivity = 0.0;
+  for (const lbm::ScalarLaw& law : options.scalar) diffusivity = std::max(diffusivity, law.diffusivity);
+  return diffusivity > 0.0 ? std::max(1.0, 0.5 / diffusivity) : std::numeric_limits<double>::infinity();
 }
 
 double steps_per_update(double allowed, std::int64_t exchange) {
@@ -73,7 +93,10 @@ void carry_fines(const Models& models, bool now, State& s) {
   try {
     const double allowed = lbm::advance_scalars(s.air->rows, s.fluxes, static_cast<double>(s.steps_since_scalars),
                                                 options, s.scalars, s.budget);
-    s.steps_per_scalar_update = models.transport_steps ? steps_per_update(allowed, models.steps_per_exchange) : 1.0;
+    s.steps_per_scalar_update =
+        models.transport_steps
+            ? steps_per_update(std::min(allowed, steps_diffusion_follows(options)), models.steps_per_exchange)
+            : 1.0;
   } catch (const std::runtime_error& e) {
     diverge("%s (t = %.6g s)", e.what(), s.time);
   }

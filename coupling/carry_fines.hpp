@@ -10,6 +10,10 @@ namespace puffin::coupling {
 /// Contacts count from here on [s]; before the first motion of a dose that settles there is no such time.
 std::optional<double> counted_from(const Models& models, const State& s);
 
+/// A scene without air: what comes off its carriers stays in the air where it is, and the air is one place, the only
+/// "cell" of `sets` sets of scalars. So the books, the checkpoint and a replay are those of any other run.
+void keep_fines_in_one_place(int sets, State& s);
+
 /// Takes fines off the carriers by the contacts and the slip of an interval of `steps` air steps, `interval` [s].
 void move_fines(const Models& models, std::int64_t steps, double interval, State& s);
 
@@ -18,6 +22,11 @@ void move_fines(const Models& models, std::int64_t steps, double interval, State
 /// intervals, those with the fewest sub-steps an air step. Longer is not taken: what is released in an update is
 /// carried over all of it, and the fluxes are those of its end.
 double steps_per_update(double allowed, std::int64_t exchange);
+
+/// Air steps over which diffusion stays second order in time: half a cell's width squared, n D <= 1/2 in lattice units
+/// (lbm/scalars/diffuse_lines.hpp weighs old and new equally up to there), and never less than one step. A cloud
+/// between absorbing plates 25 cells apart decays 5 % too slowly with n D = 6. Infinite without diffusion.
+double steps_diffusion_follows(const lbm::ScalarOptions& options);
 
 /// Carries the airborne fines over the steps since the last time: `now`, or when the next exchange could exceed the CFL
 /// limit. Throws Diverged.

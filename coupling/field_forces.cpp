@@ -33,15 +33,17 @@ void add_lift(const Models& m, double interval, const Vec3& vorticity, std::size
   const dem::Carriers& c = s.carriers.carriers;
   dem::Load& load = s.loads[p];
   const double d = 2.0 * c.single_radius[p];
-  const Vec3 slip = load.air_velocity - c.velocity[p];
+  // The mean slip of the interval, as drag wears it off: the slip at its start would make lift first order in time.
+  const Vec3 slip = mean_of_decay(load.drag * interval / c.mass[p]) * (load.air_velocity - c.velocity[p]);
   Vec3 lift = saffman_mei_lift(m.air, d, slip, vorticity);
   if (m.lift == Lift::saffman_magnus && m.carriers.rotation) {
     const Vec3 relative = 0.5 * vorticity - c.spin[p];
-    lift += magnus_lift(m.air, d, slip, relative);
     const double k = spin_resistance(m.air, d, relative.norm());
     const double inertia = 0.1 * c.single_mass(p) * d * d;  // of a single carrier
     const double of_entry = 0.4 * c.mass[p] * c.radius[p] * c.radius[p];
-    load.torque += k * mean_of_decay(k * interval / inertia) * of_entry / inertia * relative;
+    const Vec3 mean = mean_of_decay(k * interval / inertia) * relative;
+    lift += magnus_lift(m.air, d, slip, mean);
+    load.torque += k * of_entry / inertia * mean;
   }
   load.force += c.carriers[p] * lift;
 }

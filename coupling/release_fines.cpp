@@ -20,6 +20,15 @@ int place_or_throw(const dem::Carriers& carriers, std::int64_t id) {
   return place;
 }
 
+/// Without air everything is kept in one place (keep_fines_in_one_place).
+void put_aside(const std::vector<int>& places, const std::vector<double>& amount, Mechanism mechanism,
+               lbm::ScalarFields& fields) {
+  lbm::CompensatedSum sum;
+  for (const int place : places) sum.add(amount[place]);
+  for (int set = 0; mechanisms * set < fields.scalars(); ++set)
+    fields.amount[scalar_index(set, mechanism)].front() += sum.value();
+}
+
 /// Puts `amount` (by place) into the cells, in every set of scalars.
 void put_into_air(const Stencils& stencils, const std::vector<double>& amount, Mechanism mechanism,
                   lbm::ScalarFields& fields) {
@@ -61,8 +70,14 @@ void FinesRelease::by_contacts(std::span<const dem::ContactBegun> begun, const s
   }
   std::sort(places_.begin(), places_.end());
   places_.erase(std::unique(places_.begin(), places_.end()), places_.end());
-  stencils_.build(cells, carriers.position, carriers.radius, places_);
+  const bool airless = cells.slots() == 0;  // a scene without air: carry_fines.hpp, keep_fines_in_one_place
+  if (!airless) stencils_.build(cells, carriers.position, carriers.radius, places_);
   begin(carriers.size());
+  for (const int place : places_) {
+    if (!airless) break;
+    in_air_[place] = 1;
+    for (auto& amount : amount_) amount[place] = 0.0;
+  }
 
   std::size_t contact_index = 0;
   const auto lose = [&](std::int64_t id, Mechanism mechanism, int triangle, const auto& ask) {
@@ -103,8 +118,11 @@ void FinesRelease::by_contacts(std::span<const dem::ContactBegun> begun, const s
         return micromodels::impact_on_carrier(models, speed, angle, initial, left);
       });
   }
-  put_into_air(stencils_, amount_[static_cast<int>(Mechanism::wall)], Mechanism::wall, fields);
-  put_into_air(stencils_, amount_[static_cast<int>(Mechanism::particle)], Mechanism::particle, fields);
+  for (const Mechanism mechanism : {Mechanism::wall, Mechanism::particle})
+    if (const auto& amount = amount_[static_cast<int>(mechanism)]; airless)
+      put_aside(places_, amount, mechanism, fields);
+    else
+      put_into_air(stencils_, amount, mechanism, fields);
 }
 
 void FinesRelease::by_drag(const Stencils& stencils, std::span<const double> slip, double duration,

@@ -6,10 +6,10 @@
 namespace puffin::dem {
 namespace {
 
-// Around an edge the plane is off by s^2/(2R) after the way s: with s = 0.01 R by 5e-5 R, which is 1/800 of an overlap
-// of 2 % of the diameter. On a face it is exact, so the trusted way grows while the planes prove exact.
-constexpr double first_trust = 0.01, largest_trust = 0.2;  // in radii
-constexpr double exact = 1e-9;                             // in radii
+// Around an edge or a corner the plane's direction is off by s/R after the way s, and so is that of a push: with s =
+// 0.01 R by half a degree. On a face it is exact, so the trusted way grows while the planes prove exact.
+constexpr double first_trust = 0.001, growth = 4.0, largest_trust = 0.2;  // in radii
+constexpr double exact = 1e-9;                                            // in radii
 
 /// True if every new touch lies on a plane that was known already.
 bool planes_were_exact(const std::vector<WallTouch>& touches, const WallCache& cache, const Eigen::Vector3d& centre,
@@ -46,7 +46,7 @@ void look_at_walls(const Walls& walls, const Eigen::Vector3d& centre, double rad
   const double reach = need + std::max(0.5 * radius, travel);
   walls.near(centre, reach, touches);
   const bool were_exact = cache.clear >= 0.0 && planes_were_exact(touches, cache, centre, radius);
-  cache.trust = were_exact ? std::min(2.0 * cache.trust, largest_trust * radius) : first_trust * radius;
+  cache.trust = were_exact ? std::min(growth * cache.trust, largest_trust * radius) : first_trust * radius;
   cache.asked_at = centre;
   cache.clear = reach;
   cache.planes.clear();

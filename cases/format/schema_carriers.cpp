@@ -273,20 +273,23 @@ void describe(Fields& io, Fines& fines, const std::optional<Carriers>& carriers)
   if (drift)
     io.vector("gravity", fines.gravity, unit::acceleration,
               otherwise(carriers ? carriers->gravity : Vec3(0, 0, -9.81)));
+  const bool listed = carriers && !carriers->list.empty();
   if (drift || carriers || io.has("density", fines.density > 0.0))
-    io.number(
-        "density", fines.density, unit::density, Range::positive,
-        carriers && carriers->density > 0.0 ? derived(carriers->density, "carriers.density") : Fallback<double>{});
+    io.number("density", fines.density, unit::density, Range::positive,
+              !carriers                 ? Fallback<double>{}
+              : carriers->density > 0.0 ? derived(carriers->density, "carriers.density")
+              : listed                  ? derived(carriers->list.front().density, "the first of carriers.list")
+                                        : Fallback<double>{});
   if (drift || carriers || io.has("diameter", fines.diameter > 0.0)) {
     Fallback<double> diameter;
-    if (carriers && carriers->diameter > 0.0 && fines.density > 0.0)
+    if (carriers && (carriers->diameter > 0.0 || listed) && fines.density > 0.0)
       diameter =
           derived(fines_diameter(*carriers, fines.density), "sphere of fine_mass_ratio times the carrier's mass");
     io.number("diameter", fines.diameter, unit::length, Range::positive, diameter);
   }
   io.list("scalar", fines.scalars, [](Fields& f, Scalar& s) {
     f.text("name", s.name, required);
-    f.number("diffusion", s.diffusion, unit::diffusion, Range::non_negative, required);
+    f.number("diffusion", s.diffusion, unit::diffusion, Range::non_negative, otherwise(1e-6));
     f.choice("scheme", s.scheme, otherwise(ScalarScheme::mc));
     f.choice("wall", s.wall, otherwise(ScalarWall::reflect));
     if (!f.has("initial", s.initial.has_value())) return;

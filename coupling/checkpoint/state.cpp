@@ -93,7 +93,10 @@ struct Sizes {
   std::size_t populations = 0, runs = 0, triangles = 0, ids = 0, scalars = 0, slots = 0, patches = 0;
   explicit Sizes(const State& s)
       : triangles(s.collisions.hits.size()), ids(s.collisions.contacts.size()), scalars(s.scalars.amount.size()) {
-    if (!s.air) return;
+    if (!s.air) {
+      slots = s.scalars.air.size();  // the one place of fines without air, or none
+      return;
+    }
     populations = std::visit([](const auto& p) { return p.f.size(); }, s.air->populations);
     runs = s.air->rows.runs().size();
     slots = s.air->rows.slots();
@@ -126,7 +129,10 @@ struct Sizes {
     s.collisions.hits.resize(triangles);
     s.collisions.contacts.resize(ids);
     s.scalars.amount.resize(scalars);
-    if (!s.air) return;
+    if (!s.air) {
+      s.scalars.air.resize(slots);
+      return;
+    }
     std::visit([&](auto& p) { p.f.resize(populations); }, s.air->populations);
     s.budget.left.assign(scalars, std::vector<lbm::CompensatedSum>(patches));
   }

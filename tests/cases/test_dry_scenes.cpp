@@ -164,4 +164,25 @@ TEST(FrozenScenes, P01RelaxesAndP02SpiralsOut) {
   EXPECT_NEAR(std::atan2(r.y(), r.x()), std::remainder(turn * time, 2.0 * M_PI), 0.02);
 }
 
+// A spinning carrier of 60 um across a wind of 8 m/s, 3e4 1/s, for 4 ms: Magnus, Schiller-Naumann and the air's torque
+// on the spin, integrated by Runge-Kutta to 7 digits, move it 0.80128 mm aside. In 400 steps, with slip and spin taken
+// at the start of a step, it was 0.87 % too far; with their means what is left is second order: 0.1 %.
+TEST(FrozenScenes, MagnusLiftIsOfSecondOrderInTheStep) {
+  const auto s = build(parse_case(R"toml(
+schema = 1
+name = "magnus"
+geometry = { generator = "box", box = { x = "200 mm", y = "20 mm", z = "20 mm" } }
+air = { model = "frozen", field = "uniform", velocity = [8.0, 0.0, 0.0] }
+numerics = { time_step = "1e-5 s" }
+stop = { time = "4 ms" }
+[carriers]
+list = [ { position = [0.05, 0.01, 0.01], velocity = [0.0, 0.0, 0.0], diameter = 6e-5, density = 1520, spin = [0.0, 3e4, 0.0] } ]
+lift = "saffman-magnus"
+gravity = [0.0, 0.0, 0.0]
+)toml",
+                                  "magnus.toml"));
+  while (s->state.time < 4e-3 * (1.0 - 1e-12)) coupling::advance(s->models, 4e-3, s->state);
+  EXPECT_NEAR(s->state.carriers.carriers.position[0].z() - 0.01, 8.012752e-4, 1e-3 * 8.0e-4);
+}
+
 }  // namespace puffin::cases

@@ -37,5 +37,17 @@ TEST(StepsPerUpdate, StaysWithin64StepsAndThreeExchanges) {
     }
 }
 
+// Crank and Nicolson's weights hold up to n D = 1/2.
+TEST(StepsDiffusionFollows, TheFastestScalar) {
+  lbm::ScalarOptions options;
+  options.scalar.resize(3);
+  EXPECT_TRUE(std::isinf(steps_diffusion_follows(options)));
+  options.scalar[1].diffusivity = 0.1;
+  options.scalar[2].diffusivity = 0.01;
+  EXPECT_DOUBLE_EQ(steps_diffusion_follows(options), 5.0);
+  options.scalar[0].diffusivity = 40.0;
+  EXPECT_EQ(steps_diffusion_follows(options), 1.0);
+}
+
 }  // namespace
 }  // namespace puffin::coupling

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <random>
 
+#include "coupling/carry_fines.hpp"
 #include "coupling/release_fines.hpp"
 #include "tests/coupling/boxes.hpp"
 
@@ -217,6 +218,25 @@ TEST(FinesRelease, IsTheSameForOneAndTwoThreads) {
   }
   EXPECT_EQ(d[0].fines.left, d[1].fines.left);
   EXPECT_EQ(d[0].fields.amount, d[1].fields.amount);
+}
+
+// A dry scene: what comes off stays in the one place that stands for the air; 2,600 takings and sums, rounding each.
+TEST(FinesRelease, WithoutAirWhatComesOffStaysInTheBooks) {
+  Device d;
+  State s;
+  keep_fines_in_one_place(2, s);
+  std::mt19937 random(3);
+  for (int step = 0; step < 20; ++step)
+    d.release.by_contacts(d.contacts(random), 0.0, d.carriers, d.models, CellIndex(), d.fines, s.scalars);
+  EXPECT_EQ(d.fines.without_air, 0);
+  for (const int set : {0, 1}) {
+    const Ledger books = ledger(d.fines, s.scalars, s.budget, set);
+    EXPECT_GT(books.in_air, 0.05 * books.loaded);
+    EXPECT_NEAR(books.in_air, d.fines.to_air[0].value() + d.fines.to_air[1].value(), 1e-12 * books.loaded);
+    EXPECT_GT(books.by_mechanism[1].in_air, 0.0);
+    EXPECT_GT(books.on_walls, 0.0);
+    EXPECT_NEAR(books.error(), 0.0, 1e-13);
+  }
 }
 
 TEST(Ledger, SeesWhatLeftAndWhatTheAirDeposited) {

@@ -81,7 +81,7 @@ bool Stepping::finished() const {
   if (s_.state.time >= s_.description.stop.time * (1.0 - 1e-12)) return true;
   if (!s_.description.stop.when_empty || !s_.description.carriers) return false;
   if (s_.state.carriers.carriers.size() > 0) return false;
-  if (s_.state.scalars.scalars() == 0) return true;
+  if (s_.state.scalars.scalars() == 0 || !s_.state.air) return true;  // without air, fines in it stay for ever
   const auto ledger = coupling::ledger(s_.state.fines, s_.state.scalars, s_.state.budget, 0);
   return ledger.in_air < 1e-6 * ledger.loaded;
 }

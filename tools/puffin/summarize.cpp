@@ -81,14 +81,18 @@ output::CarrierSummary carriers(const cases::Simulation& s) {
   c.first_motion = s.state.first_motion.time();
   const coupling::MomentumBooking& books = s.state.momentum;
   if (books.exchanged > 0.0) c.momentum_error = (books.given - books.taken).norm() / books.exchanged;
-  if (s.description.fines && s.dose_mass > 0.0) {
+  if (s.description.carriers && s.dose_mass > 0.0) {
     // Mass still in the device: carriers, what is left on them, and what sticks to walls. A carrier's mass in the
-    // dynamics is that of the loaded carrier; here the fines it lost are taken off.
-    const double fine = s.description.carriers->fine_mass_ratio *
-                        cases::carrier_mass(s.description.carriers->diameter, s.description.carriers->density);
+    // dynamics is that of the loaded carrier; here the fines it lost are taken off. A fine weighs fine_mass_ratio of
+    // its own carrier; on walls, where they are mixed, the mean of the dose.
+    const cases::Carriers& given = *s.description.carriers;
+    const double of_loaded = given.fine_mass_ratio / (1.0 + given.fines_each * given.fine_mass_ratio);
     double lost = 0.0;
-    for (std::size_t p = 0; p < in.size(); ++p) lost += s.state.fines.initial[in.id[p]] - s.state.fines.left[in.id[p]];
-    c.RDF = (retained_mass - lost * fine + s.state.fines.to_wall.value() * fine) / s.dose_mass;
+    for (std::size_t p = 0; p < in.size(); ++p)
+      lost += (s.state.fines.initial[in.id[p]] - s.state.fines.left[in.id[p]]) * of_loaded * in.single_mass(p);
+    const double on_walls = s.state.fines.to_wall.value() - s.state.fines.picked_up.value();
+    const double fine = c.count > 0 ? of_loaded * s.dose_mass / static_cast<double>(c.count) : 0.0;
+    c.RDF = (retained_mass - lost + on_walls * fine) / s.dose_mass;
   }
   return c;
 }

@@ -52,6 +52,27 @@ TEST_F(Run, TheLedgerClosesAtEveryOutputAndThreadsDoNotChangeTheAnswer) {
   EXPECT_TRUE(std::filesystem::exists(folder_ / "one" / "report.html"));
 }
 
+// Without air and fines: of 8 parts of mass that fly out and one that stays, RDF is 1/9. Exact but for rounding.
+TEST_F(Run, RetainedMassCountsUnlikeCarriersWithTheirOwn) {
+  std::ofstream(folder_ / "case.toml") << R"toml(
+schema = 1
+name = "two"
+geometry = { generator = "duct", duct = { length = "10 mm", width = "4 mm", height = "4 mm" } }
+air = { model = "none" }
+[carriers]
+list = [ { position = [5e-3, 1e-3, 2e-3], velocity = [4.0, 0.0, 0.0], diameter = 1e-4, density = 1520 },
+         { position = [5e-3, 3e-3, 2e-3], velocity = [0.0, 0.0, 0.0], diameter = 5e-5, density = 1520 } ]
+gravity = [0.0, 0.0, 0.0]
+[stop]
+time = "2 ms"
+)toml";
+  ASSERT_EQ(run("out", "--no-report"), 0) << text("out.log");
+  const output::Summary s = output::read_summary(folder_ / "out" / "summary.json");
+  ASSERT_TRUE(s.carriers && s.carriers->RDF);
+  EXPECT_EQ(s.carriers->emitted, 1);
+  EXPECT_NEAR(*s.carriers->RDF, 1.0 / 9.0, 1e-12);
+}
+
 TEST_F(Run, ARunThatDivergesEndsWith5AndSaysWhere) {
   // A step 80 times longer than the inlet's speed allows: 8 in lattice units, and 1 after three retreats.
   EXPECT_EQ(run("bad", "--set numerics.time_step=64e-6"), 5);
