@@ -81,14 +81,19 @@ output::CarrierSummary carriers(const cases::Simulation& s) {
   c.first_motion = s.state.first_motion.time();
   const coupling::MomentumBooking& books = s.state.momentum;
   if (books.exchanged > 0.0) c.momentum_error = (books.given - books.taken).norm() / books.exchanged;
-  if (s.description.fines && s.dose_mass > 0.0) {
+  if (s.dose_mass > 0.0) {
     // Mass still in the device: carriers, what is left on them, and what sticks to walls. A carrier's mass in the
     // dynamics is that of the loaded carrier; here the fines it lost are taken off.
-    const double fine = s.description.carriers->fine_mass_ratio *
-                        cases::carrier_mass(s.description.carriers->diameter, s.description.carriers->density);
-    double lost = 0.0;
-    for (std::size_t p = 0; p < in.size(); ++p) lost += s.state.fines.initial[in.id[p]] - s.state.fines.left[in.id[p]];
-    c.RDF = (retained_mass - lost * fine + s.state.fines.to_wall.value() * fine) / s.dose_mass;
+    double fines_moved = 0.0;
+    if (s.description.fines) {
+      const double fine = s.description.carriers->fine_mass_ratio *
+                          cases::carrier_mass(s.description.carriers->diameter, s.description.carriers->density);
+      double lost = 0.0;
+      for (std::size_t p = 0; p < in.size(); ++p)
+        lost += s.state.fines.initial[in.id[p]] - s.state.fines.left[in.id[p]];
+      fines_moved = (s.state.fines.to_wall.value() - lost) * fine;
+    }
+    c.RDF = (retained_mass + fines_moved) / s.dose_mass;
   }
   return c;
 }
