@@ -65,7 +65,7 @@ Stack cylinder_stack(const DoseSpec& spec) {
   }
   stack.volume = 0.25 * std::numbers::pi * spec.floor_diameter * spec.floor_diameter * stack.layers * pitch;
   stack.shape = "cylinder of " + in_units(spec.floor_diameter, 1e-3, "mm") + ", " + std::to_string(stack.layers) +
-                " layers of " + std::to_string(layer.size());
+                (stack.layers == 1 ? " layer of up to " : " layers of ") + std::to_string(layer.size());
   return stack;
 }
 

@@ -25,6 +25,7 @@ Place place_of(const toml::node& node, const Findings& findings) {
 
 /// A value as it would stand in a TOML file.
 std::string text_of(const toml::node& node) {
+  if (const auto number = node.value_exact<double>()) return shortest(*number);  // not 0.018 as 0.017999999999999999
   toml::table holder;
   holder.insert_or_assign("v", node);
   if (toml::table* t = holder.get("v")->as_table()) t->is_inline(true);

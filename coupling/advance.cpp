@@ -22,6 +22,7 @@
 #include "coupling/state.hpp"
 #include "coupling/stopwatch.hpp"
 #include "dem/advance.hpp"
+#include "dem/failure.hpp"
 #include "dem/open_contacts.hpp"
 #include "lbm/wall_schemes.hpp"
 
@@ -60,18 +61,15 @@ void step_carriers(const Models& models, double interval, State& s) {
   const Stopwatch watch(s.effort.carriers);
   try {
     dem::advance(interval, models.carriers, *models.walls, s.loads, s.carriers, s.events);
-  } catch (const std::runtime_error& e) {
+  } catch (const dem::Failure& e) {
     const dem::Carriers& c = s.carriers.carriers;
-    std::string where;
-    for (std::size_t p = 0; where.empty() && p < c.size() && p < s.stencils_at.position.size(); ++p)
-      if (!c.position[p].allFinite() || !c.velocity[p].allFinite()) {
-        char text[96];
-        const Vec3& x = s.stencils_at.position[p];
-        std::snprintf(text, sizeof text, "; it was last at [%.5g, %.5g, %.5g] m", x[0], x[1], x[2]);
-        where = text;
-      }
+    const auto p = static_cast<std::size_t>(std::find(c.id.begin(), c.id.end(), e.carrier()) - c.id.begin());
+    // Where it was at the interval's start; without a lattice nobody keeps that.
+    const Vec3 x = p < s.stencils_at.position.size() ? s.stencils_at.position[p] : c.position[p];
+    char where[96] = "";
+    if (x.allFinite()) std::snprintf(where, sizeof where, "; it was last at [%.5g, %.5g, %.5g] m", x[0], x[1], x[2]);
     diverge("%s%s. Likely causes: a contact too stiff for its step, or air that diverged around the carrier", e.what(),
-            where.c_str());
+            where);
   }
 }
 

@@ -2,23 +2,37 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <string>
 
+#include "coupling/divergence.hpp"
 #include "lbm/kernel.hpp"
 
 namespace puffin::coupling {
 
 namespace {
 
-template <class... Args>
-[[noreturn]] void diverge(const char* format, Args... args) {
-  char text[512];
-  std::snprintf(text, sizeof text, format, args...);
-  throw Diverged(text);
-}
-
 long long id_of(const State& state, std::size_t place) {
   return static_cast<long long>(state.carriers.carriers.id[place]);
+}
+
+/// Who is in contact with carrier `a`: carrier `b`, or a wall where b < 0.
+std::string partner(std::int64_t b, int triangle) {
+  return b >= 0 ? "carrier " + std::to_string(b) : "the wall's triangle " + std::to_string(triangle);
+}
+
+/// `overlap`: part of the (smaller) diameter.
+[[noreturn]] void report_overlap(const std::string& carrier, const std::string& other, double overlap, double time,
+                                 double limit) {
+  diverge(
+      "%s overlaps %s by %.3g of its diameter at t = %.6g s (limit %.2g). Likely causes: carriers.contact.stiffness "
+      "or youngs_modulus too low for the speeds, or carriers that overlap at the start",
+      carrier.c_str(), other.c_str(), overlap, time, limit);
+}
+
+std::string with_place(long long id, const Vec3& x) {
+  char text[120];
+  std::snprintf(text, sizeof text, "carrier %lld at [%.5g, %.5g, %.5g] m", id, x[0], x[1], x[2]);
+  return text;
 }
 
 }  // namespace
@@ -67,8 +81,8 @@ void Health::check_walls(const Models& models, const State& state) const {
     const Vec3& x = c.position[p];
     diverge(
         "carrier %lld is outside the walls, at [%.5g, %.5g, %.5g] m, at t = %.6g s with %.4g m/s. Likely causes: "
-        "its centre was pushed through a wall by the carriers behind it (a stiffness too low), or a hole in the "
-        "surface",
+        "its centre was pushed through a wall (carriers.contact.stiffness or youngs_modulus too low for its speed or "
+        "for the carriers behind it), or a hole in the surface",
         id_of(state, p), x[0], x[1], x[2], state.time, c.velocity[p].norm());
   }
 }
@@ -78,16 +92,30 @@ void Health::check_overlaps(const State& state) const {
   for (const dem::Contact& contact : state.carriers.contacts) {
     if (contact.phase == dem::ContactPhase::free) continue;
     const double radius = contact.b >= 0 ? std::min(c.radius[contact.a], c.radius[contact.b]) : c.radius[contact.a];
-    const double overlap = (contact.max_overlap - contact.offset) / (2.0 * radius);
+    const double overlap = contact.max_overlap / (2.0 * radius);  // what was there from its start is not in it
     if (!(overlap > limits_.overlap)) continue;
-    const Vec3& x = c.position[contact.a];
-    const std::string other = contact.b >= 0 ? "carrier " + std::to_string(c.id[contact.b])
-                                             : "the wall's triangle " + std::to_string(contact.triangle);
-    diverge(
-        "carrier %lld at [%.5g, %.5g, %.5g] m overlaps %s by %.3g of its diameter at t = %.6g s (limit %.2g). "
-        "Likely causes: carriers.contact.stiffness too low for the speeds, or carriers that overlap at the start",
-        id_of(state, static_cast<std::size_t>(contact.a)), x[0], x[1], x[2], other.c_str(), overlap, state.time,
-        limits_.overlap);
+    report_overlap(with_place(id_of(state, static_cast<std::size_t>(contact.a)), c.position[contact.a]),
+                   partner(contact.b >= 0 ? c.id[contact.b] : -1, contact.triangle), overlap, state.time,
+                   limits_.overlap);
+  }
+}
+
+void Health::check_impacts(const Models& models, const State& state) const {
+  if (!(state.carriers.statistics.largest_overlap > limits_.overlap)) return;
+  check(models, state);  // a carrier that went through a wall tells more than its overlap
+  const dem::Carriers& c = state.carriers.carriers;
+  // One that has left in the same exchange has no place any more, and no radius: its partner's must do.
+  const auto place_of = [&](std::int64_t id) { return std::find(c.id.begin(), c.id.end(), id); };
+  for (const dem::ContactEnded& contact : state.events.ended) {
+    const auto a = place_of(contact.a), b = place_of(contact.b);
+    double radius = std::numeric_limits<double>::infinity();
+    for (const auto& one : {a, b})
+      if (one != c.id.end()) radius = std::min(radius, c.radius[static_cast<std::size_t>(one - c.id.begin())]);
+    const double overlap = contact.max_overlap / (2.0 * radius);
+    if (!(overlap > limits_.overlap)) continue;
+    report_overlap(a != c.id.end() ? with_place(contact.a, c.position[static_cast<std::size_t>(a - c.id.begin())])
+                                   : "carrier " + std::to_string(contact.a) + ", which has left,",
+                   partner(contact.b, contact.triangle), overlap, contact.time_end, limits_.overlap);
   }
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 // Has the physics left the range in which the method means anything? The kernel watches every cell in every step; here
-// is the rest, cheap enough to be asked every hundred steps.
+// is the rest, cheap enough to be asked every hundred steps; what a contact leaves behind, in every exchange.
 
 #include <cstdint>
 #include <vector>
@@ -25,6 +25,10 @@ class Health {
 
   /// Throws Diverged naming the first bad carrier or ledger, its place, value and limit, and the likely cause.
   void check(const Models& models, const State& state) const;
+
+  /// If a contact of the last exchange overlapped too much, checks, then throws Diverged naming such a contact that
+  /// ended: an impact can be over between two checks. To be asked after every exchange; else it takes no time.
+  void check_impacts(const Models& models, const State& state) const;
 
  private:
   void check_motion(const State& state) const;

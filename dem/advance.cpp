@@ -8,6 +8,7 @@
 #include <string>
 
 #include "dem/chains.hpp"
+#include "dem/failure.hpp"
 #include "dem/free_flight.hpp"
 #include "dem/gather.hpp"
 #include "dem/meeting.hpp"
@@ -89,8 +90,7 @@ void require_finite(std::span<const Load> loads, const State& state) {
     if (all.rest[i] == Rest::awake &&
         !(all.position[i].allFinite() && all.velocity[i].allFinite() && all.spin[i].allFinite() &&
           loads[i].force.allFinite() && loads[i].air_velocity.allFinite() && std::isfinite(loads[i].drag)))
-      throw std::runtime_error("dem: carrier " + std::to_string(all.id[i]) +
-                               " has left the finite numbers at t = " + std::to_string(state.time) + " s");
+      throw Failure(all.id[i], "has left the finite numbers at t =", state.time);
 }
 
 }  // namespace

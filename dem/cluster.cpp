@@ -11,6 +11,7 @@
 #include <string>
 
 #include "dem/contact_step.hpp"
+#include "dem/failure.hpp"
 #include "dem/first_touch.hpp"
 #include "dem/free_flight.hpp"
 #include "dem/meeting.hpp"
@@ -262,9 +263,8 @@ void Motion::run() {
   evaluate(0.0, duration_);
   for (std::int64_t taken = 0; elapsed_ < duration_ && !c.disturbed;) {
     if (++taken > most_steps)
-      throw std::runtime_error("dem: more than " + std::to_string(most_steps) + " sub-steps in one step of " +
-                               std::to_string(duration_) + " s, with carrier " + std::to_string(c.records[0].id) +
-                               "; give shorter steps or a larger max_overlap");
+      throw Failure(c.records[0].id, "needs more than 50 million sub-steps in a step of", duration_,
+                    "; give shorter steps or a larger max_overlap");
     const double remaining = duration_ - elapsed_;
     const bool flies = !live_;
     double h = std::min(remaining, look_);

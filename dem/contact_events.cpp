@@ -177,6 +177,8 @@ Wish meet_event(std::size_t index, const Substep& substep, const Rules& rules, C
       w.record_a.stuck = w.record_a.fixed = true;
       w.a.inverse_mass = w.a.inverse_inertia = 0.0;
       vec(w.a.v) = vec(w.a.w) = vec(w.a.kick) = vec(w.a.twist) = Vector3d::Zero();
+      // A weight that stayed would press it into the wall again, in no time, for ever.
+      w.record_a.acceleration = w.record_a.turning = Vector3d::Zero();
       end_contact(substep.time, index, cluster);
       return over;
     }

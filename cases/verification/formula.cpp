@@ -206,6 +206,7 @@ double Formula::operator()(const std::map<std::string, double>& known) const {
     const auto found = known.find(name);
     if (found == known.end()) {
       std::vector<std::string> all;
+      all.reserve(known.size());
       for (const auto& [k, v] : known) all.push_back(k);
       const std::string near = nearest(name, all);
       throw std::invalid_argument("'" + name + "' is not known" +

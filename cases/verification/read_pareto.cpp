@@ -49,6 +49,7 @@ void take_check(Fields& io, ParetoCase& c) {
   const auto check = std::find_if(checks.begin(), checks.end(), [&](const Check& k) { return k.quantity == quantity; });
   if (check == checks.end()) {
     std::vector<std::string> known;
+    known.reserve(checks.size());
     for (const Check& k : checks) known.push_back("'" + k.quantity + "'");
     if (!quantity.empty())
       io.problem("check", "the verification has no check '" + quantity + "'; it has " + join(known));

@@ -56,6 +56,11 @@ TEST_F(StudyFile, CasesAreTheBaseWithTheirChanges) {
   EXPECT_EQ(b.carriers->count, 1000);
 }
 
+TEST_F(StudyFile, ValuesReadAsTheyWereWritten) {
+  const Study s = study("base = \"case.toml\"\n[[case]]\nname = \"a\"\nset = { \"numerics.time_step\" = 8e-4 }\n");
+  EXPECT_EQ(s.cases[0].sets.at(0).value, "8e-04");  // not 0.00080000000000000004
+}
+
 TEST_F(StudyFile, ReplicatesDifferInTheSeedAlone) {
   const Study s = study("base = \"case.toml\"\n[[case]]\nname = \"a\"\nset = { \"numerics.seed\" = 7 }\n");
   Case first = read_study_case(s.cases[0], 0), third = read_study_case(s.cases[0], 2);

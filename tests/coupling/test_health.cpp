@@ -60,6 +60,59 @@ TEST_F(HealthOf, AnOverlapBeyondTheLimitIsNamed) {
   expect_complaint("by 0.31 of its diameter");
 }
 
+// The overlap that was there before the carriers closed in carries no force and is not counted, once.
+TEST_F(HealthOf, AnOverlapThatWasThereFromTheStartIsNotTakenOffTwice) {
+  auto& contacts = sim_->state.carriers.contacts;
+  dem::Contact deep;
+  deep.phase = dem::ContactPhase::bonded;
+  deep.a = 0, deep.b = 1;
+  deep.offset = 0.2 * 7e-5;
+  deep.max_overlap = 0.31 * 7e-5;
+  contacts.push_back(deep);
+  expect_complaint("overlaps carrier 1 by 0.31 of its diameter");
+}
+
+// An impact of 10 us lies between two looks a hundred steps apart.
+class HealthOfImpacts : public HealthOf {
+ protected:
+  HealthOfImpacts() {
+    dem::ContactEnded deep;
+    deep.a = 3, deep.triangle = 7;
+    deep.time_end = 0.29e-3;
+    deep.max_overlap = 0.31 * 7e-5;
+    sim_->state.events.ended.push_back(deep);
+    sim_->state.carriers.statistics.largest_overlap = 0.31;
+  }
+  std::string complaint() const {
+    try {
+      health_.check_impacts(sim_->models, sim_->state);
+    } catch (const Diverged& e) {
+      return e.what();
+    }
+    return {};
+  }
+};
+
+TEST_F(HealthOfImpacts, OneTooDeepIsNamedThoughItIsOver) {
+  carriers().position[3] = {2e-3, 1e-3, 1.25e-3};
+  EXPECT_NE(complaint().find("carrier 3 at [0.002, 0.001, 0.00125] m overlaps the wall's triangle 7 by 0.31 of its "
+                             "diameter at t = 0.00029 s"),
+            std::string::npos)
+      << complaint();
+}
+
+TEST_F(HealthOfImpacts, OneOfACarrierThatHasLeftIsNamedByItsPartner) {
+  sim_->state.events.ended.back().a = 99;
+  sim_->state.events.ended.back().b = 3;
+  EXPECT_NE(complaint().find("carrier 99, which has left, overlaps carrier 3 by 0.31"), std::string::npos)
+      << complaint();
+}
+
+TEST_F(HealthOfImpacts, OneWithinTheLimitIsGood) {
+  sim_->state.events.ended.back().max_overlap = 0.29 * 7e-5;
+  EXPECT_EQ(complaint(), "");
+}
+
 TEST_F(HealthOf, FinesThatDoNotAddUpAreNamed) {
   sim_->state.fines.left[0] += 1e-8 * sim_->state.fines.loaded;
   expect_complaint("scalar set 0 do not add up");

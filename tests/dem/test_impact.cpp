@@ -247,3 +247,18 @@ TEST(Impact, StickingWallsHoldWhatTouchesThem) {
   EXPECT_NEAR(s.x(0).z(), 35e-6, 1e-12);
   EXPECT_EQ(s.events.begun.size(), 1u);
 }
+
+TEST(Impact, StickingWallsHoldAgainstWeight) {
+  for (const double g : {-9.81, 9.81}) {
+    Scene s;
+    s.walls = PlaneWalls::floor();
+    s.models.on_wall = OnWall::stick;
+    s.models.gravity = {1.0, 0, g};
+    s.add(lactose(1, {0, 0, 40e-6}, {1.0, 0, -1.0}));
+    s.run(20e-6, 7e-6);  // one step reaches beyond the touch, after 5 us
+    EXPECT_EQ(s.state.carriers.rest[0], Rest::stuck);
+    EXPECT_NEAR(s.x(0).z(), 35e-6, 1e-12);
+    EXPECT_EQ(s.events.begun.size(), 1u);
+    EXPECT_EQ(s.v(0).norm(), 0.0);
+  }
+}

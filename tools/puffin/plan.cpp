@@ -109,7 +109,10 @@ int plan_study(const CaseArguments& a) {
                          {"set", sets},
                          {"problem", job.problem},
                          {"why", ""}});
-    if (!a.json) print("  runs     " + job.id + (names.size() > 1 ? ": " + cases::join(names) : ""));
+    if (!a.json) {
+      print("  runs     " + job.id + (names.size() > 1 ? ": " + cases::join(names) : ""));
+      for (const cases::Override& o : job.sets) print("             " + o.key + " = " + o.value);
+    }
     if (!job.problem.empty() && !a.json) print("  INVALID  " + job.problem);
     bad = bad || !job.problem.empty();
   }

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 
 #include "tools/output/report/live_page.hpp"
@@ -42,7 +43,7 @@ void Progress::update(const Recorder& recorder, const std::vector<std::string>& 
   }
   // Air steps, not simulated time, are what costs: in a ramp the end is dearer than the beginning.
   const double done = work(state.time), all = work(end_);
-  if (done > begun_at_) status.eta = wall * (all - done) / (done - begun_at_);
+  if (done > begun_at_) status.eta = std::max(0.0, wall * (all - done) / (done - begun_at_));
   if (!recorder.history().empty() && sim_.description.fines)
     status.ledger_error = recorder.history().back().ledger_error;
   output::write_status(folder_.file("status.json"), status);
@@ -53,7 +54,7 @@ void Progress::update(const Recorder& recorder, const std::vector<std::string>& 
   if (quiet_ || (!terminal_ && !now && wall - last_line_ < 10.0)) return;
   last_line_ = wall;
   char line[240];
-  std::snprintf(line, sizeof line, "%-9s %7.2f of %.0f ms  %5.1f %%  %6.1f MLUPS  ETA %4.0f s  ledger %.1e",
+  std::snprintf(line, sizeof line, "%-9s %7.2f of %.4g ms  %5.1f %%  %6.1f MLUPS  ETA %4.0f s  ledger %.1e",
                 status.phase.c_str(), 1e3 * state.time, 1e3 * end_, all > 0.0 ? 100.0 * done / all : 0.0, status.mlups,
                 status.eta.value_or(0.0), status.ledger_error.value_or(0.0));
   std::fprintf(stderr, terminal_ ? "\r%s\033[K" : "%s\n", line);

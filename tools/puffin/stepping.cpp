@@ -88,6 +88,7 @@ bool Stepping::finished() const {
 
 void Stepping::step() {
   coupling::advance(s_.models, std::min(recorder_->next(), s_.description.stop.time), s_.state);
+  health_.check_impacts(s_.models, s_.state);
   const auto writing = Clock::now();
   recorder_->take_events(s_);
   recorder_->record(s_);

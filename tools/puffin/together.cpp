@@ -140,6 +140,7 @@ class Company {
       const Clock::time_point begin = Clock::now();
       try {
         if (!members[n].failure.empty()) throw coupling::Diverged(members[n].failure);
+        p.health->check_impacts(p.simulation->models, p.state());
         with_air(p, [&] {
           p.recorder->take_events(*p.simulation);
           p.recorder->record(*p.simulation);

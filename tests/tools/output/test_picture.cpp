@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include <cmath>
+#include <limits>
 #include <set>
 
 #include "tests/tools/output/scratch.hpp"
@@ -104,6 +106,24 @@ TEST(Painter, ThePictureIsTheSameForEveryNumberOfThreads) {
     return carriers_picture(synthetic_walls(), synthetic_carriers(0.12), {"x", 0.12}, 2.0, {}, 400, 300).png();
   };
   EXPECT_EQ(with(1), with(2));
+}
+
+// A run that diverged leaves such values in its last output.
+TEST(Painter, WhatIsNoNumberOrFarAwayIsLeftOut) {
+  CarrierFrame carriers = synthetic_carriers(0.12);
+  const auto picture = [&] {
+    return carriers_picture(synthetic_walls(), carriers, {"x", 0.12}, speed_scale(carriers), {}, 400, 300).png();
+  };
+  const auto last = carriers.position.size() - 1;
+  carriers.position[last] = {1e6, 0.0, 0.0};
+  const auto beside = picture();
+  carriers.velocity[last] = {std::nanf(""), 0.0F, 0.0F};
+  for (const double x : {std::nan(""), std::numeric_limits<double>::infinity(), -1e300}) {
+    carriers.position[last] = {x, x, x};
+    EXPECT_EQ(picture(), beside) << x;
+  }
+  const Colour none = viridis(std::nanf(""));
+  EXPECT_EQ(none.r, viridis(0.0F).r);
 }
 
 TEST(Camera, ShowsTheWholeBox) {

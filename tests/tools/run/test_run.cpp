@@ -107,6 +107,32 @@ TEST_F(Run, UntilStopsEarlierAndChangesNothingElse) {
             output::read_csv(folder_ / "long" / "history.csv").numbers("dt").front());
 }
 
+// One of two equal carriers without fines flies out of a duct, the other stays: half of the dose.
+TEST_F(Run, TheRetainedDoseIsKnownWithoutFines) {
+  std::ofstream(folder_ / "case.toml") << R"toml(
+schema = 1
+name = "dry"
+[geometry]
+generator = "duct"
+[air]
+model = "none"
+[numerics]
+dx = "1 mm"
+[carriers]
+diameter = "70 um"
+density = "1520 kg/m^3"
+gravity = [0.0, 0.0, 0.0]
+list = [ { position = [0.049, 0.003, 0.002], velocity = [9, 0, 0] }, { position = [0.02, 0.003, 0.002], velocity = [0, 0, 0] } ]
+[stop]
+time = "0.5 ms"
+)toml";
+  ASSERT_EQ(run("dry", "--no-report"), 0) << text("dry.log");
+  EXPECT_EQ(output::read_summary(folder_ / "dry" / "summary.json").carriers->RDF, 0.5);
+  EXPECT_NE(text("dry.log").find("of 0.5 ms"), std::string::npos) << text("dry.log");
+  const std::string eta = "\"eta\": ", status = text("dry/status.json");
+  EXPECT_GE(std::stod(status.substr(status.find(eta) + eta.size())), 0.0) << "the last step reaches beyond the end";
+}
+
 TEST_F(Run, AFinishedRunIsNotOverwritten) {
   ASSERT_EQ(run("once", "--until 0.2ms"), 0) << text("once.log");
   EXPECT_EQ(run("once", "--until 0.2ms"), 7);

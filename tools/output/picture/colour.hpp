@@ -20,7 +20,8 @@ inline constexpr Colour ink{0.13f, 0.15f, 0.18f};
 inline constexpr Colour soft_ink{0.38f, 0.41f, 0.45f};
 inline constexpr Colour glass{0.52f, 0.60f, 0.68f};
 
-/// The viridis map at t in 0..1 (clamped): perceptually uniform, also in grey and for colour-blind eyes.
+/// The viridis map at t in 0..1 (clamped; 0 for what is no number): perceptually uniform, also in grey and for
+/// colour-blind eyes.
 /// Source: S. van der Walt & N. Smith, 2015; sixteen of its colours, linear between them.
 inline Colour viridis(float t) {
   static constexpr std::array<int, 16> table{0x440154, 0x481A6C, 0x472F7D, 0x414487, 0x39568C, 0x31688E,
@@ -29,7 +30,7 @@ inline Colour viridis(float t) {
   const auto colour = [](int rgb) {
     return Colour{(rgb >> 16) / 255.0f, ((rgb >> 8) & 255) / 255.0f, (rgb & 255) / 255.0f};
   };
-  const float at = std::clamp(t, 0.0f, 1.0f) * 15.0f;
+  const float at = (t > 0.0f ? std::min(t, 1.0f) : 0.0f) * 15.0f;
   const int low = std::min(static_cast<int>(at), 14);
   return mix(colour(table[low]), colour(table[low + 1]), at - static_cast<float>(low));
 }

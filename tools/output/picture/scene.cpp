@@ -222,7 +222,9 @@ void paint(const Scene& scene, const Camera& camera, const Box& view, Canvas& ca
   std::vector<FlatSphere> spheres;
   for (const auto& s : scene.spheres) {
     const double radius = std::max(s.radius * fine.scale, scene.smallest_radius * samples);
-    spheres.push_back({fine.project(s.centre), radius, 1.0 / fine.scale, s.colour});
+    const Vec3 at = fine.project(s.centre);
+    if (!(at.cwiseAbs().maxCoeff() + radius < 1e6)) continue;  // pixel: far away or no number, after a divergence
+    spheres.push_back({at, radius, 1.0 / fine.scale, s.colour});
   }
   // Opaque things first: they save the translucent fragments behind them.
   std::stable_partition(triangles.begin(), triangles.end(), [](const auto& t) { return t.opacity >= 1.0f; });

@@ -1,6 +1,7 @@
 // Streamlines of the air in the device, coloured by speed.
 
 #include <algorithm>
+#include <cmath>
 
 #include "tools/output/picture/decorations.hpp"
 #include "tools/output/picture/streamlines.hpp"
@@ -35,8 +36,10 @@ Canvas streamlines_picture(const FieldFrame& field, const WallFrame& walls, cons
 double speed_scale(const FieldFrame& field) {
   std::vector<float> speeds;
   for (std::size_t n = 0; n < field.fluid.size() && 3 * n + 2 < field.velocity.size(); ++n)
-    if (field.fluid[n])
-      speeds.push_back(speed_of({field.velocity[3 * n], field.velocity[3 * n + 1], field.velocity[3 * n + 2]}));
+    if (field.fluid[n]) {
+      const float speed = speed_of({field.velocity[3 * n], field.velocity[3 * n + 1], field.velocity[3 * n + 2]});
+      if (std::isfinite(speed)) speeds.push_back(speed);  // of a run that diverged
+    }
   if (speeds.empty()) return 1.0;
   const auto nearly_all = speeds.begin() + static_cast<std::ptrdiff_t>(0.999 * static_cast<double>(speeds.size() - 1));
   std::nth_element(speeds.begin(), nearly_all, speeds.end());

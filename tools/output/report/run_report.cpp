@@ -151,9 +151,10 @@ std::string flow(const Run& run) {
   const PressureSummary& p = *run.summary.pressure;
   Rows rows;
   const auto add = [&](const char* name, const TimeMean& m) {
-    rows.push_back({name, significant(m.mean, 4),
-                    m.ci_low && m.ci_high ? significant(*m.ci_low, 4) + " to " + significant(*m.ci_high, 4) : "",
-                    std::to_string(m.batches)});
+    rows.push_back(
+        {name, significant(m.mean, 4),
+         m.ci_low && m.ci_high ? significant(*m.ci_low, 4) + " to " + significant(*m.ci_high, 4) : "too few batches",
+         std::to_string(m.batches)});
   };
   add("static drop [Pa]", p.static_drop);
   add("total-to-static drop [Pa]", p.total_to_static_drop);
@@ -161,7 +162,9 @@ std::string flow(const Run& run) {
                 "95 % interval of the mean", "batches"},
                rows);
   out += paragraph(
-      "The total-to-static drop is what a test rig measures against the room: the losses and the speed that leaves.");
+      "The total-to-static drop is what a test rig measures against the room: the losses and the speed that leaves. "
+      "The "
+      "interval comes from the means of equal pieces of that time, the batches: longer runs give more.");
   return out;
 }
 

@@ -168,7 +168,8 @@ std::string effort_section(const StudyResults& results) {
     }
     rows.push_back(row);
     for (const SkippedWork& s : run->summary->skipped)
-      skipped.push_back({escaped(c.name), escaped(s.name), grouped(s.times), significant(s.seconds_saved)});
+      skipped.push_back({escaped(c.name), "<div class=left>" + escaped(s.name) + "</div>", grouped(s.times),
+                         significant(s.seconds_saved)});
   }
   std::string out = "<h2>Where the time went</h2>\n" + table(head, rows) +
                     "<p>Seconds of the first replicate of each case. These numbers: summary.csv of the runs.</p>\n";

@@ -26,6 +26,11 @@ std::string with_given(const StudyCaseResult& c, const std::string& quantity, do
          (thesis ? " <span class=soft>(" + significant(thesis->given * factor) + ")</span>" : "");
 }
 
+/// A name of usual length on one line: tables part it at its hyphens.
+std::string unbroken(const std::string& name) {
+  return name.size() > 32 ? escaped(name) : "<span style=\"white-space:nowrap\">" + escaped(name) + "</span>";
+}
+
 bool any_run(const StudyCaseResult& c) { return !c.numbers.empty(); }
 
 std::string overview(const StudyResults& results) {
@@ -38,12 +43,14 @@ std::string overview(const StudyResults& results) {
       if (run.state == "failed") problems += escaped(run.folder + ": " + run.message) + "<br>";
     }
     for (const auto& [key, value] : c.sets) sets += "<code>" + escaped(key + " = " + value) + "</code><br>";
-    rows.push_back({escaped(c.name), "<div class=left>" + sets + "</div>",
+    rows.push_back({unbroken(c.name), "<div class=left>" + sets + "</div>",
                     std::to_string(done) + " of " + std::to_string(c.runs.size()),
-                    with_interval(c.find("simulated_time"), 1e3), with_interval(c.find("wall_clock")), problems});
+                    with_interval(c.find("simulated_time"), 1e3), with_interval(c.find("wall_clock")),
+                    "<div class=left>" + problems + "</div>"});
   }
-  return heading("The cases") +
-         table({"case", "changes", "runs done", "simulated [ms]", "wall-clock [s]", "problems"}, rows);
+  return heading("The cases") + table({"case", "<div class=left>changes</div>", "runs done", "simulated [ms]",
+                                       "wall-clock [s]", "<div class=left>problems</div>"},
+                                      rows);
 }
 
 std::string outcome(const StudyResults& results, const std::string& quantity, const std::string& label) {

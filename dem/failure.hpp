@@ -1,0 +1,30 @@
+#pragma once
+// Why the carriers' motion cannot go on, and whose.
+
+#include <cstdint>
+#include <cstdio>
+#include <stdexcept>
+#include <string>
+
+namespace puffin::dem {
+
+class Failure : public std::runtime_error {
+ public:
+  /// "dem: carrier ID BEFORE SECONDS s AFTER"
+  Failure(std::int64_t carrier, const char* before, double seconds, const char* after = "")
+      : std::runtime_error(text(carrier, before, seconds, after)), carrier_(carrier) {}
+
+  std::int64_t carrier() const { return carrier_; }
+
+ private:
+  static std::string text(std::int64_t carrier, const char* before, double seconds, const char* after) {
+    char all[256];
+    std::snprintf(all, sizeof all, "dem: carrier %lld %s %.6g s%s", static_cast<long long>(carrier), before, seconds,
+                  after);
+    return all;
+  }
+
+  std::int64_t carrier_;
+};
+
+}  // namespace puffin::dem
