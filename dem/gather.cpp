@@ -181,6 +181,14 @@ void renew_neighbours(double duration, const Rules& rules, const Gathering& g, S
   ++state.statistics.rebuilds;
 }
 
+void give_back(Gathering& g) {
+  constexpr std::size_t few = 16, several = 8;
+  for (std::size_t c = 0; c < g.clusters.size(); ++c) {
+    const std::size_t members = c < g.used ? static_cast<std::size_t>(g.member_begin[c + 1] - g.member_begin[c]) : 0;
+    if (g.clusters[c].bodies.capacity() > std::max(few, several * members)) g.clusters[c] = Cluster{};
+  }
+}
+
 void find_clusters(double duration, const Rules& rules, const State& state, Gathering& g) {
   find_pairs(duration, state, g);
   if (widen_margins(duration, rules, state, g)) {
@@ -229,6 +237,7 @@ void find_clusters(double duration, const Rules& rules, const State& state, Gath
   for (std::size_t p = 0; p < g.pairs.size(); ++p)
     g.pair_order[next[g.cluster_of[g.pairs[p][0]]]++] = static_cast<std::int32_t>(p);
   if (g.clusters.size() < g.used) g.clusters.resize(g.used);
+  give_back(g);
 }
 
 bool guess_held(double duration, State& state, Gathering& g) {

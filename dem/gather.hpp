@@ -42,6 +42,11 @@ void renew_neighbours(double duration, const Rules& rules, const Gathering& gath
 /// Finds the pairs that may touch and unites them, live contacts and walls into clusters.
 void find_clusters(double duration, const Rules& rules, const State& state, Gathering& gathering);
 
+/// Empties the clusters that keep memory for many times the carriers they are about to hold: clusters are numbered by
+/// their first carrier, so that a bed of thousands is now this one, now that one, and each would keep room for all of
+/// it.
+void give_back(Gathering& gathering);
+
 /// Copies the carriers, contacts and candidates of cluster `index` out of `state`.
 void fill(std::size_t index, double time, const Rules& rules, std::span<const Load> loads, const State& state,
           Gathering& gathering);

@@ -1,9 +1,10 @@
-// Refusal of nonsense, and the friction law's values.
+// Refusal of nonsense, the friction law's values, and what is kept between steps.
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
+#include "dem/gather.hpp"
 #include "dem/surface_law.hpp"
 #include "tests/dem/scene.hpp"
 
@@ -68,4 +69,18 @@ TEST(Models, FrictionFallsFromStickToSlipToLimit) {
   EXPECT_DOUBLE_EQ(law.friction(1.0), 0.2);
   EXPECT_DOUBLE_EQ(law.friction(5.5), 0.15);
   EXPECT_DOUBLE_EQ(law.friction(40.0), 0.1);
+}
+
+TEST(Clusters, KeepNoRoomForABedThatIsGone) {
+  Gathering g;
+  g.clusters.resize(3);
+  g.clusters[0].bodies.reserve(2500);  // held the bed before, holds a pair now
+  g.clusters[1].bodies.reserve(2500);  // holds the bed
+  g.clusters[2].bodies.reserve(2500);  // is not used in this step
+  g.member_begin = {0, 2, 2002};
+  g.used = 2;
+  give_back(g);
+  EXPECT_EQ(g.clusters[0].bodies.capacity(), 0u);
+  EXPECT_GE(g.clusters[1].bodies.capacity(), 2500u);
+  EXPECT_EQ(g.clusters[2].bodies.capacity(), 0u);
 }
