@@ -55,11 +55,11 @@ TEST(WallSinks, take_the_exponential_part_and_book_it) {
   f.amount[0][s.at(0)] = 5.0;
   f.amount[1][s.at(0)] = 1e-7;
   f.amount[0][s.at(2)] = 4.0;
-  take_at_walls(s.fluxes, 3.0, {0}, f, b);
+  take_at_walls(s.fluxes, 3.0, {0, 1}, f, b);
   EXPECT_DOUBLE_EQ(f.amount[0][s.at(0)], 5.0 * std::exp(-0.6));
   EXPECT_EQ(f.amount[0][s.at(2)], 4.0);
   EXPECT_EQ(f.amount[0][s.at(0)] + b.absorbed_at[0][s.at(0)], 5.0);
-  take_at_walls(s.fluxes, 1e6, {0}, f, b);  // never more than there is
+  take_at_walls(s.fluxes, 1e6, {0, 1}, f, b);  // never more than there is
   EXPECT_GE(f.amount[1][s.at(0)], 0.0);
   EXPECT_NEAR(absorbed(b, 1), 1e-7, 1e-22);
 }
