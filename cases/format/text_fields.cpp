@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <filesystem>
 
 namespace puffin::cases::format {
 namespace {
@@ -73,7 +74,10 @@ void TextFields::flag(std::string_view key, bool& value, Fallback<bool>) { line(
 
 void TextFields::text(std::string_view key, std::string& value, Fallback<std::string>) { line(key, quote(value)); }
 
-void TextFields::file(std::string_view key, std::string& path, std::span<const std::string>) { line(key, quote(path)); }
+/// Absolute: the copy in a run's folder must find what the case found from its own.
+void TextFields::file(std::string_view key, std::string& path, std::span<const std::string>) {
+  line(key, quote(std::filesystem::absolute(path).string()));
+}
 
 void TextFields::texts(std::string_view key, std::vector<std::string>& values, Fallback<std::vector<std::string>>) {
   std::string s = "[";

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <random>
 
 #include "cases/write_case.hpp"
@@ -19,6 +20,13 @@ void expect_round_trip(const Case& c) {
 }
 
 TEST(WriteCase, ReadingTheResolvedCaseGivesTheSameCase) { expect_round_trip(parse(sample)); }
+
+TEST(WriteCase, NamesFilesSoThatTheyAreFoundFromAnyFolder) {
+  Case c = parse(sample);
+  ASSERT_TRUE(c.fines);
+  c.fines->micromodels = "laws.toml";
+  EXPECT_NE(write_resolved(c).find('"' + std::filesystem::absolute("laws.toml").string() + '"'), std::string::npos);
+}
 
 TEST(WriteCase, EveryShapeOfAValueComesBack) {
   for (const std::vector<Override>& overrides : std::vector<std::vector<Override>>{
