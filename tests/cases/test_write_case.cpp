@@ -23,8 +23,7 @@ TEST(WriteCase, ReadingTheResolvedCaseGivesTheSameCase) { expect_round_trip(pars
 
 TEST(WriteCase, NamesFilesSoThatTheyAreFoundFromAnyFolder) {
   Case c = parse(sample);
-  ASSERT_TRUE(c.fines);
-  c.fines->micromodels = "laws.toml";
+  c.fines.emplace().micromodels = "laws.toml";
   EXPECT_NE(write_resolved(c).find('"' + std::filesystem::absolute("laws.toml").string() + '"'), std::string::npos);
 }
 
