@@ -124,7 +124,7 @@ void build_regain(Simulation& s) {
 }  // namespace
 
 /// Of all fines: as long as no more of a scalar is airborne, it is not carried on. Far below what any result shows, far
-/// above what the first touches of a shaking bed release (1e-19 of the dose, 40 ms before anything else).
+/// above what the first touches of a shaking bed release (1e-19 to 1e-16 of the dose, docs/fines.md).
 constexpr double resting_part = 1e-9;
 
 void build_fines(Simulation& s) {
