@@ -8,18 +8,22 @@
 namespace puffin::coupling {
 namespace {
 
+std::string complaint_of(const auto& ask) {
+  try {
+    ask();
+  } catch (const Diverged& e) {
+    return e.what();
+  }
+  return {};
+}
+
 class HealthOf : public ::testing::Test {
  protected:
   HealthOf() : sim_(coupled_simulation()), health_(sim_->models, sim_->state) {
     while (sim_->state.time < 0.3e-3) advance(sim_->models, 0.3e-3, sim_->state);
   }
   std::string complaint() const {
-    try {
-      health_.check(sim_->models, sim_->state);
-    } catch (const Diverged& e) {
-      return e.what();
-    }
-    return {};
+    return complaint_of([&] { health_.check(sim_->models, sim_->state); });
   }
   void expect_complaint(const std::string& part) const {
     EXPECT_NE(complaint().find(part), std::string::npos) << complaint();
@@ -84,12 +88,7 @@ class HealthOfImpacts : public HealthOf {
     sim_->state.carriers.statistics.largest_overlap = 0.31;
   }
   std::string complaint() const {
-    try {
-      health_.check_impacts(sim_->models, sim_->state);
-    } catch (const Diverged& e) {
-      return e.what();
-    }
-    return {};
+    return complaint_of([&] { health_.check_impacts(sim_->models, sim_->state); });
   }
 };
 
