@@ -53,12 +53,13 @@ struct DropReading {
   double total_to_static_drop = 0.0;  // flux-weighted total pressure at the inlets minus static at the outlets [Pa]
 };
 
-/// Reads pressure drops on the cells beside the openings; which cells these are is found once.
+/// Reads pressure drops on the cells beside the openings; which cells these are is found once. Where no boundary gives
+/// the flow, the openings at which air enters at the moment are the inlets, and what enters is the flow rate.
 class DropReader {
  public:
   explicit DropReader(const cases::Simulation& s);
   DropReading read(const cases::Simulation& s) const;
-  bool has_both() const { return !inlet_.empty() && !outlet_.empty(); }
+  bool has_both() const { return (!inlet_.empty() && !outlet_.empty()) || between_pressures_; }
 
  private:
   struct Cell {
@@ -66,6 +67,18 @@ class DropReader {
     int patch;
   };
   std::vector<Cell> inlet_, outlet_;
+  bool between_pressures_ = false;  // no inlet, two outlets or more
+};
+
+/// Forces of the air on patches [N].
+class ForceReader {
+ public:
+  explicit ForceReader(const cases::Simulation& s);
+  /// "wall" means all walls if no patch is called so.
+  coupling::Vec3 read(const cases::Simulation& s, const std::string& patch) const;
+
+ private:
+  std::vector<double> excess_;  // volume on which a body force acts too much, per boundary [dx^3]; empty: no body force
 };
 
 struct PlaneReading {
@@ -87,8 +100,5 @@ Totals read_totals(const cases::Simulation& s);
 /// cells, else the nearer. The lattice keeps mass, so in steady flow every plane across a channel reads one flow rate.
 /// Empty: the plane meets no fluid.
 std::optional<PlaneReading> read_plane(const cases::Simulation& s, int axis, double at);
-
-/// Force of the air on a patch [N]; "wall" means all walls if no patch is called so.
-coupling::Vec3 read_force(const cases::Simulation& s, const std::string& patch);
 
 }  // namespace puffin::tools
