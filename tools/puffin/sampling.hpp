@@ -18,11 +18,11 @@ struct PointReading {
 /// Velocity and pressure of one active cell, in the middle of a step: half of the uniform body force included.
 PointReading read_cell(const cases::Simulation& s, std::ptrdiff_t slot);
 
-/// Reads the air at points: trilinear between cell centres; across a periodic face from the other side. Where some of
-/// the eight cells around a point are not fluid and a wall is nearer than a cell, the velocity follows the parabola
-/// through the wall's own velocity and the readings one and two cells further along the wall's normal (linear where the
-/// second is missing): second order up to the wall. Elsewhere the cells outside the fluid are left out and the rest
-/// weighted to 1; so is the pressure, whose slope across a wall is small.
+/// Reads the air at points: a parabola along each axis between cell centres; across a periodic face from the other
+/// side. Where some of the eight cells around a point are not fluid and a wall is nearer than a cell, the velocity
+/// follows the parabola through the wall's own velocity and the readings one and two cells further along the wall's
+/// normal (linear where the second is missing): second order up to the wall. Elsewhere the cells outside the fluid are
+/// left out and the rest weighted to 1; so is the pressure, whose slope across a wall is small.
 class PointReader {
  public:
   PointReader() = default;
@@ -38,7 +38,10 @@ class PointReader {
     PointReading reading;
     double weight = 0.0;  // of the fluid among the eight cells
   };
-  Mean mean_of_cells(const cases::Simulation& s, const coupling::Vec3& x) const;
+  Mean mean_of_cells(const cases::Simulation& s, const coupling::Vec3& x) const;  // trilinear
+  /// Less the curvature between the cells, half of part (1 - part) of the second difference along each axis: a parabola
+  /// is read as it is. Trilinear where cells are missing.
+  Mean curved_mean(const cases::Simulation& s, const coupling::Vec3& x) const;
 
   std::shared_ptr<const lbm::geometry::TriangleTree> walls_;  // the air sticks to these; empty: none
   std::vector<int> patch_;                                    // per triangle of walls_
