@@ -68,10 +68,35 @@ class Faces {
   std::vector<std::ptrdiff_t> cells_;
 };
 
+/// Adds what a cut link exchanged to the force on `boundary`. A link along a face diagonal leaves through two faces of
+/// its cell. Where these belong to two patches, at an edge, the pressure in the momentum along an axis acts on the
+/// patch beyond that axis's face, over all of whose area it acts so; the rest of it, friction, on the other patch.
+/// `beyond`: the patch beyond the face in an axis direction.
+template <class Beyond>
+void add_link(const Air& air, std::ptrdiff_t slot, int i, double exchanged, int boundary, const Beyond& beyond,
+              std::array<double, 3>& force) {
+  int axis[2] = {0, 0}, patch[2] = {0, 0}, parts = 0;
+  for (int d = 0; d < 3; ++d)
+    if (d3q19::velocity[i][d] != 0) {
+      axis[parts] = d;
+      patch[parts++] = beyond(axis_of(i, d));
+    }
+  if (parts == 1 || patch[0] == patch[1]) {
+    if (patch[0] != boundary) return;
+    for (int d = 0; d < 3; ++d) force[d] += exchanged * d3q19::velocity[i][d];
+    return;
+  }
+  if (patch[0] != boundary && patch[1] != boundary) return;
+  const double pressure = 2.0 * d3q19::weight[i] * moments_at(air, slot).density_excess;
+  for (int n = 0; n < 2; ++n) {
+    const double c = d3q19::velocity[i][axis[n]];
+    if (patch[n] == boundary) force[axis[n]] += c * pressure;
+    if (patch[1 - n] == boundary) force[axis[n]] += c * (exchanged - pressure);
+  }
+}
+
 }  // namespace
 
-// A link along a face diagonal leaves through two faces of its cell. Where these belong to two patches, at an edge, the
-// momentum along each axis belongs to the patch beyond that face: so pressure acts on each patch over all of its area.
 std::array<double, 3> force_on_patch(const Air& air, int boundary) {
   std::array<double, 3> force = force_on_cells(air, boundary);
   const Faces faces(air);
@@ -81,31 +106,25 @@ std::array<double, 3> force_on_patch(const Air& air, int boundary) {
         const auto exchanged = [&](const Run& run, std::ptrdiff_t slot, int i) -> double {
           return p.departed(run, slot, i, last) + p.arrived(run, slot, d3q19::opposite(i));
         };
-        for (const WallRun& wall : air.links.walls) {
-          const Run& run = air.rows.runs()[wall.run];
+        for (const WallRun& wall : air.links.walls)
           for (int i = 1; i < d3q19::q; ++i) {
             if (!(wall.directions >> i & 1U)) continue;
             for (int n = 0; n < wall.count; ++n) {
               const int own = Faces::patch_of(air, wall, i, n);
-              for (int d = 0; d < 3; ++d) {
-                const int axis = axis_of(i, d);
-                if (axis == 0) continue;
-                const int owner = axis == i                      ? own
-                                  : wall.directions >> axis & 1U ? Faces::patch_of(air, wall, axis, n)
-                                                                 : faces.patch(wall.first + n, axis, own);
-                if (owner == boundary) force[d] += exchanged(run, wall.first + n, i) * d3q19::velocity[i][d];
-              }
+              const std::ptrdiff_t slot = wall.first + n;
+              const auto beyond = [&](int axis) {
+                if (wall.directions >> axis & 1U) return Faces::patch_of(air, wall, axis, n);
+                return faces.patch(slot, axis, own);
+              };
+              add_link(air, slot, i, exchanged(air.rows.runs()[wall.run], slot, i), boundary, beyond, force);
             }
           }
-        }
         for (const auto* list : {&air.links.inlets, &air.links.outlets})
-          for (const OpeningLink& link : *list)
-            for (int d = 0; d < 3 && link.direction > 6; ++d) {
-              const int axis = axis_of(link.direction, d);
-              if (axis == 0 || faces.patch(link.slot, axis, Faces::none) != boundary) continue;
-              force[d] +=
-                  exchanged(air.rows.runs()[link.run], link.slot, link.direction) * d3q19::velocity[link.direction][d];
-            }
+          for (const OpeningLink& link : *list) {
+            const auto beyond = [&](int axis) { return faces.patch(link.slot, axis, Faces::none); };
+            const double all = exchanged(air.rows.runs()[link.run], link.slot, link.direction);
+            add_link(air, link.slot, link.direction, all, boundary, beyond, force);
+          }
         for (const SlipLink& link : air.links.slip)
           for (int d = 0; d < 3; ++d) {
             const int axis = axis_of(link.direction, d);
