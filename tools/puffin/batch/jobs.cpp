@@ -176,7 +176,7 @@ void explain_beds(const cases::Study& study, std::string_view preset, Jobs& plan
     if (bed.first < 2) continue;
     any = true;
     plan.sharings.push_back({"start", true, bed.second + ": the dose settles once, in the first run that needs it",
-                             "none: the carriers lie the same to the last bit"});
+                             "the carriers lie the same to the last bit"});
   }
   if (!any)
     plan.sharings.push_back({"start", false,
