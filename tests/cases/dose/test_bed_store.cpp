@@ -26,7 +26,9 @@ class BedStore : public ::testing::Test {
         },
         kept_);
   }
-  std::filesystem::path folder_ = std::filesystem::temp_directory_path() / "puffin-bed-store";
+  std::filesystem::path folder_ =
+      std::filesystem::temp_directory_path() /
+      ("puffin-bed-store-" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
   bool settled_ = false, kept_ = false;
 };
 
