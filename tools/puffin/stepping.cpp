@@ -1,5 +1,6 @@
 #include "tools/puffin/stepping.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <csignal>
 
@@ -48,8 +49,15 @@ static void fields(auto& archive, coupling::Is<RunMemory> auto& memory) {
 }
 
 Stepping::Stepping(cases::Simulation& s, const output::OutputFolder& folder, bool quiet, Clock::time_point start,
-                   double walltime)
-    : s_(s), folder_(folder), start_(start), walltime_(walltime), health_(s.models, s.state), store_(s, folder) {
+                   double walltime, double until)
+    : s_(s),
+      folder_(folder),
+      start_(start),
+      walltime_(walltime),
+      shortened_(until < s.description.stop.time),
+      health_(s.models, s.state),
+      store_(s, folder) {
+  s.description.stop.time = std::min(s.description.stop.time, until);
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow: its writer says so
   if (folder.resumed()) {
     coupling::save(s.state, good_);  // its size, before anything moved, bounds what a checkpoint can be
@@ -77,8 +85,10 @@ std::int64_t Stepping::steps() const { return s_.state.air ? s_.state.air->steps
 
 double Stepping::wall_clock() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 
+bool Stepping::is_over() const { return s_.state.time >= s_.description.stop.time * (1.0 - 1e-12); }
+
 bool Stepping::finished() const {
-  if (s_.state.time >= s_.description.stop.time * (1.0 - 1e-12)) return true;
+  if (is_over()) return true;
   if (!s_.description.stop.when_empty || !s_.description.carriers) return false;
   if (s_.state.carriers.carriers.size() > 0) return false;
   if (s_.state.scalars.scalars() == 0 || !s_.state.air) return true;  // without air, fines in it stay for ever
@@ -149,6 +159,8 @@ Ending Stepping::run() {
       recorder_->record(s_);
       while (!finished()) {
         step();
+        // The step that --until cut short is none of the whole run: what goes on begins before it.
+        if (shortened_ && is_over()) break;
         look_after();
         if (received_signal == 0 && wall_clock() <= walltime_) continue;
         health_.check(s_.models, s_.state);
@@ -161,7 +173,10 @@ Ending Stepping::run() {
                 received_signal == SIGINT ? interrupted : stopped};
       }
       health_.check(s_.models, s_.state);
-      return {};
+      Ending ending;
+      ending.goes_on = shortened_ && is_over();
+      if (ending.goes_on) write_checkpoint(good_);
+      return ending;
     } catch (const coupling::Diverged& e) {
       if (retreat(e.what())) continue;
       write_checkpoint(good_);
@@ -178,7 +193,7 @@ void Stepping::finish(const Ending& ending) {
   recorder_->finish(s_);
   progress_->update(*recorder_, memory_.warnings, true);
   progress_->finish();
-  if (ending.code == ok) recorder_->forget_journal();
+  if (ending.code == ok && !ending.goes_on) recorder_->forget_journal();
   output::Status last = output::read_status(folder_.file("status.json"));
   last.state = ending.state;
   output::write_status(folder_.file("status.json"), last);
