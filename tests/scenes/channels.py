@@ -90,11 +90,11 @@ def poiseuille_collisions(bench):
 def poiseuille_wall_schemes(bench):
     """A gap of 16.4 cells: the plates lie inside cells."""
     force = 12 * MU * 0.2 / H**2
-    for wall, tolerance in (("bouzidi", 0.01), ("halfway", 0.1), ("psm", 0.02), ("ibm", 0.1)):
+    for wall, tolerance in (("bouzidi", 0.012), ("halfway", 0.1), ("psm", 0.02), ("ibm", 0.1)):
         run, exact, flow_rate, low, high = driven(bench, force=force, dx=H / 16.4, numerics={"wall": wall})
         yield f"{wall}: profile over the largest speed", 0, worst(exact, 0.3), tolerance
         yield f"{wall}: flow rate of the plane", flow_rate, run.flow("section"), tolerance
-        yield f"{wall}: force on both plates over that of the body force", 1, (low[1] + high[1]) / (low[0] + high[0]), 0.08
+        yield f"{wall}: force on both plates over that of the body force", 1, (low[1] + high[1]) / (low[0] + high[0]), 0.002
 
 
 @scene
@@ -130,7 +130,7 @@ def plates_between_pressures(bench):
     flow = run.flow("z2")
     speed = flow / (4 * DX * H)
     rise = run.last("planes", plane="z5")["static_pressure"] - run.last("planes", plane="z2")["static_pressure"]
-    yield "flow rate (entrance and exit of plates 6 gaps long cost little), Re 13", -0.2, speed, 0.1
+    yield "mean speed, Re 13", -0.2, speed, 0.02
     yield "pressure gradient over Poiseuille's for this flow", 1, rise / (-12 * MU * speed * 3 * H / H**2), 0.01
     yield "flow rate through z = 1 over that through z = 5 mm", 1, run.flow("z1") / run.flow("z5"), 1e-3
     mean = run.last("planes", plane="z1")["static_pressure"]

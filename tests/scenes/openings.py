@@ -107,7 +107,8 @@ def profile_from_file(bench):
 @scene
 def ramp_of_the_flow(bench):
     """Plug flow between slip walls: p = rho L dU/dt while it is ramped, the same with every kind of time step. Sound
-    runs to and fro without loss after each bend of the ramp: means over many of its periods (0.3 ms)."""
+    runs to and fro without loss after each bend of the ramp: means over many of its periods (0.3 ms). Column and
+    wind of a Mach number M of the lattice (0.17) act as L/(1 - M^2): 3 %."""
     length, top, ramp = 4e-3, 10.0, 0.02
     for step in ("follow-ramp", "fixed", "1e-6 s"):
         rate = [["0 s", 0.0], [f"{ramp} s", top * 16 * DX**2], ["1 s", top * 16 * DX**2]]
@@ -120,7 +121,7 @@ def ramp_of_the_flow(bench):
             rows = [r for r in run.rows(table) if begin < r["time"] < end]
             return sum(r[column] for r in rows) / len(rows)
         pressure = mean("planes", "static_pressure", 0.005, 0.019)
-        yield f"{step}: pressure 3 mm before the outlet during the ramp", RHO * 3e-3 * top / ramp, pressure, 0.02
+        yield f"{step}: pressure 3 mm before the outlet during the ramp", RHO * 3e-3 * top / ramp, pressure, 0.04
         yield f"{step}: speed over the ramp's at 11 to 13 ms", 1, mean("probes", "u", 0.011, 0.013) / (0.012 * top / ramp), 0.01
         head = mean("planes", "total_pressure", 0.022, 0.03) - mean("planes", "static_pressure", 0.022, 0.03)
         yield f"{step}: total less static pressure after it", 0.5 * RHO * top**2, head, 0.02

@@ -167,3 +167,29 @@ def standing_sound(bench):
     yield "period", 2 * length / c, 2 * (cross[-1] - cross[0]) / (len(cross) - 1), 0.005
     yield "first crossing over the period", 0.25, cross[0] / (2 * length / c), 0.03
     yield "force on the end at x = 0 over its area's pressure", 1, run.force("x-min")[0] / (-p[-1][1] * 16 * DX**2), 0.02
+
+
+@scene
+def free_fall(bench):
+    """Nothing but a body force, periodic in all directions: u = G t/rho, the force one tilted in space."""
+    force = [3.0, -2.0, 1.0]
+    run = bench.run(box(4 * DX, 5 * DX, 6 * DX), {"body_force": force}, periodic("x", "y", "z"), {"dx": DX}, 0.01,
+                    {"statistics": 0.001, "probe": [{"name": "p", "at": [DX, 2 * DX, 3 * DX]}], "plane": [{"name": "y", "normal": "y", "at": 2 * DX}]})
+    end = run.last("probes")
+    for c, g in zip("uvw", force):
+        yield f"{c} at 10 ms", g * end["time"] / RHO, end[c], 1e-3
+    yield "flow rate along y", -2.0 * end["time"] / RHO * 24 * DX**2, run.flow("y"), 1e-3
+    yield "momentum of the air in no one's way: pressure", 0, end["p"], 1e-3
+
+
+@scene
+def slanted_lid(bench):
+    """A lid that moves along (1, 2, 0) between periodic sides: both components are Couette's, forces too."""
+    run = bench.run(box(6 * DX, 6 * DX, H), {}, periodic("x", "y") | {"z-min": {"type": "moving-wall", "velocity": [0.1, 0.2, 0.0]},
+                    "z-max": {"type": "moving-wall", "velocity": [-0.1, 0.0, 0.0]}}, {"dx": DX}, 0.25,
+                    {"statistics": 0.05, "probe": [{"name": "p", "at": [DX, DX, 0.25 * H]}], "force": ["z-min", "z-max"]})
+    p, area = run.last("probes"), 36 * DX**2
+    yield "u at a quarter", 0.05, p["u"], 0.005
+    yield "v at a quarter", 0.15, p["v"], 0.005
+    yield "force on the lower wall along x", -MU * 0.2 / H * area, run.force("z-min")[0], 0.005
+    yield "force on the upper wall along y", MU * 0.2 / H * area, run.force("z-max")[1], 0.005
