@@ -18,6 +18,7 @@
 #include "tools/puffin/commands.hpp"
 #include "tools/puffin/console.hpp"
 #include "tools/puffin/exit_codes.hpp"
+#include "tools/puffin/stored_field.hpp"
 
 namespace puffin::tools {
 namespace {
@@ -58,6 +59,8 @@ int check_case(const CaseArguments& a) {
   if (auto problems = cases::boundary_problems(c, surface); !problems.empty())
     throw cases::CaseError(std::move(problems));
   if (auto problems = cases::table_problems(c); !problems.empty()) throw cases::CaseError(std::move(problems));
+  if (const auto* run = std::get_if<cases::RunField>(&c.air.frozen); run && c.air.model == cases::AirModel::frozen)
+    cases::from_file(c, "air.field", [&] { return read_stored_field(*run); });
   cases::Assessment assessment = cases::assess(c, surface);
   check_places(c, a.file.string(), surface, assessment);
   check_stability(c, assessment);

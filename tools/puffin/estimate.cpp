@@ -33,6 +33,7 @@ int estimate(const CaseArguments& a) {
   if (a.json) {
     nlohmann::json j = assessment_json(c, assessment);
     j["steps"] = std::llround(steps);
+    j["cells_active"] = rehearsal.active;
     j["seconds"] = f.seconds;
     j["seconds_low"] = f.low;
     j["seconds_high"] = f.high;

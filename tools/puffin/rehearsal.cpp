@@ -120,6 +120,7 @@ Rehearsal rehearse(const cases::Case& c, double seconds) {
       r.outputs += kind.seconds / static_cast<double>(kind.times) * (1.0 + std::floor(c.stop.time / kind.interval));
   r.at_rest = steps_before(s, 1.0 / 3.0, c.stop.time);
   r.time = s.state.time;
+  if (s.state.air) r.active = static_cast<std::int64_t>(s.state.air->rows.active_cells());
   r.memory = peak_memory();
   return r;
 }

@@ -9,17 +9,18 @@ namespace puffin::tools {
 
 /// Cost of the parts of a run, measured [s].
 struct Rehearsal {
-  double set_up = 0.0;     // until the first step
-  double air = 0.0;        // an air step: collision, streaming, walls
-  double carriers = 0.0;   // an air step's share of exchange and motion, carriers awake
-  double transport = 0.0;  // an air step's share of transport, fines everywhere in the air
-  double rest = 0.0;       // an air step's share of everything else but outputs
-  double outputs = 0.0;    // tables and frames of the whole run, by what those of the rehearsal took
-  double finish = 0.0;     // after the last step: events.h5, wall maps
-  double at_rest = 0.0;    // part of the air steps before the carriers fly: until a third of the largest flow
-  double time = 0.0;       // simulated [s]
-  double memory = 0.0;     // peak of this process [byte]
-  std::int64_t steps = 0;  // that were rehearsed
+  double set_up = 0.0;      // until the first step
+  double air = 0.0;         // an air step: collision, streaming, walls
+  double carriers = 0.0;    // an air step's share of exchange and motion, carriers awake
+  double transport = 0.0;   // an air step's share of transport, fines everywhere in the air
+  double rest = 0.0;        // an air step's share of everything else but outputs
+  double outputs = 0.0;     // tables and frames of the whole run, by what those of the rehearsal took
+  double finish = 0.0;      // after the last step: events.h5, wall maps
+  double at_rest = 0.0;     // part of the air steps before the carriers fly: until a third of the largest flow
+  double time = 0.0;        // simulated [s]
+  double memory = 0.0;      // peak of this process [byte]
+  std::int64_t active = 0;  // cells that are computed, those of an immersed boundary's band too
+  std::int64_t steps = 0;   // that were rehearsed
   int threads = 0;
 };
 

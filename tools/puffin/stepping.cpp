@@ -145,6 +145,7 @@ bool Stepping::retreat(const std::string& why) {
                 "retreat %d of %d from t = %.6g s to %.6g s with 1/%d of the time step: ", memory_.retreats,
                 most_retreats, failed_at, s_.state.time, 1 << memory_.retreats);
   memory_.warnings.push_back(text + why);
+  progress_->finish();  // the line on the terminal ends
   log_warning(memory_.warnings.back());
   const RecorderState outputs = restored(good_.at("outputs"));
   recorder_.reset();  // its files are closed before they are cut
@@ -185,14 +186,13 @@ Ending Stepping::run() {
 }
 
 void Stepping::finish(const Ending& ending) {
+  const std::size_t told = memory_.warnings.size();
   if (ending.code == ok)
-    for (const std::string& text : lattice_warnings(s_)) {
-      memory_.warnings.push_back(text);
-      log_warning(text);
-    }
+    for (const std::string& text : lattice_warnings(s_)) memory_.warnings.push_back(text);
   recorder_->finish(s_);
   progress_->update(*recorder_, memory_.warnings, true);
   progress_->finish();
+  for (std::size_t n = told; n < memory_.warnings.size(); ++n) log_warning(memory_.warnings[n]);
   if (ending.code == ok && !ending.goes_on) recorder_->forget_journal();
   output::Status last = output::read_status(folder_.file("status.json"));
   last.state = ending.state;
