@@ -155,7 +155,8 @@ void explain(const cases::Study& study, const std::vector<Job>& jobs, std::vecto
        {std::tuple(study.share.scalars, "scalars",
                    "no two cases differ in the diffusion or scheme of their scalar alone"),
         std::tuple(study.share.micromodels, "micromodels", "no two cases differ in their micro-models alone")})
-    if (wanted && std::none_of(sharings.begin(), sharings.end(), [&](const Sharing& s) { return s.name == word; }))
+    if (wanted &&
+        std::none_of(sharings.begin(), sharings.end(), [name = word](const Sharing& s) { return s.name == name; }))
       sharings.push_back({word, false, what, ""});
   if (study.share.geometry)
     sharings.push_back(
