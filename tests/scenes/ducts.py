@@ -11,8 +11,8 @@ def periodic_prism(bench, section, length, force, dx, name="x", numerics=None, p
     return bench.run(
         {"stl": "own.stl", "unit": "mm"}, {"body_force": [force, 0.0, 0.0]},
         {"inlet": {"type": "periodic", "with": "outlet"}},
-        {"dx": dx} | (numerics or {}), 0.4,
-        {"statistics": 0.1, "plane": [{"name": "section", "normal": "x", "at": length / 2}], "force": ["wall"],
+        {"dx": dx} | (numerics or {}), 0.08,
+        {"statistics": 0.02, "plane": [{"name": "section", "normal": "x", "at": length / 2}], "force": ["wall"],
          "probe": [{"name": "mid", "at": [length / 2, *mid]}]},
         files={"own.stl": ascii_stl(section if isinstance(section, dict) else prism(section, length), unit=1e-3)})
 

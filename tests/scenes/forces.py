@@ -38,7 +38,7 @@ def sphere_array_other_axes(bench):
             "shape": "sphere", "diameter": d,
                          "center": [size / 2] * 3, "periodic": True}}, {"body_force": vector(axis, sign * force)},
                          periodic("x", "y", "z"),
-                        {"dx": size / 24}, 0.3, {"statistics": 0.1, "force": ["obstacle"],
+                        {"dx": size / 24}, 0.12, {"statistics": 0.04, "force": ["obstacle"],
                         "plane": [{"name": "p", "normal": axis, "at": 0.05 * size}]})
         drag = sign * force * size**3
         speed = drag / (2.842 * 6 * math.pi * MU * d / 2)
