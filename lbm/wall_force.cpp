@@ -68,10 +68,18 @@ class Faces {
   std::vector<std::ptrdiff_t> cells_;
 };
 
+/// The link ends on its wall nearer than half-way, so before it would leave through another face: its cell then has its
+/// mirror image on the same wall.
+bool before_edge(const Air& air, const WallRun& wall, int i, int n) {
+  const auto k = static_cast<std::size_t>(std::popcount(wall.directions & ((1U << i) - 1U)));
+  const float partner = air.links.partner[wall.coefficient + k * static_cast<std::size_t>(wall.count) + n];
+  return !(wall.far >> i & 1U) && partner > 2e-3F;  // 1 - 2q
+}
+
 /// Adds what a cut link exchanged to the force on `boundary`. A link along a face diagonal leaves through two faces of
-/// its cell. Where these belong to two patches, at an edge, the pressure in the momentum along an axis acts on the
-/// patch beyond that axis's face, over all of whose area it acts so; the rest of it, friction, on the other patch.
-/// `beyond`: the patch beyond the face in an axis direction.
+/// its cell. Where these belong to two patches and it ends at the edge, the pressure in the momentum along an axis acts
+/// on the patch beyond that axis's face, over all of whose area it acts so; the rest of it, friction, on the other
+/// patch. `beyond`: the patch beyond the face in an axis direction.
 template <class Beyond>
 void add_link(const Air& air, std::ptrdiff_t slot, int i, double exchanged, int boundary, const Beyond& beyond,
               std::array<double, 3>& force) {
@@ -113,6 +121,7 @@ std::array<double, 3> force_on_patch(const Air& air, int boundary) {
               const int own = Faces::patch_of(air, wall, i, n);
               const std::ptrdiff_t slot = wall.first + n;
               const auto beyond = [&](int axis) {
+                if (before_edge(air, wall, i, n)) return own;
                 if (wall.directions >> axis & 1U) return Faces::patch_of(air, wall, axis, n);
                 return faces.patch(slot, axis, own);
               };

@@ -102,7 +102,7 @@ void complete_obstacle(Values& v, Problems& problems) {
 Kind obstacle_kind() {
   return {
       "obstacle",
-      "a duct with a sphere, a cylinder (upright, from floor to ceiling) or a cube in it",
+      "a duct with a sphere, a cylinder (upright, from floor to ceiling) or a cube in it; a corner in the origin",
       {{"length", 40.0 * mm, "m", "length (x) of the duct", assumed, positive},
        {"width", 10.0 * mm, "m", "width (y) of the duct", assumed, positive},
        {"height", 10.0 * mm, "m", "height (z) of the duct", assumed, positive},

@@ -108,7 +108,7 @@ KeyPoints bend_points(const Values& v) {
 
 Kind pipe_kind() {
   return {"pipe",
-          "a straight round pipe",
+          "a straight round pipe on the x-axis, from x = 0",
           {{"diameter", 5.0 * mm, "m", "diameter; the section is an inscribed polygon", assumed, positive},
            {"length", 50.0 * mm, "m", "length (x)", assumed, positive},
            {"periodic", false, "", "name the ends x-min and x-max", assumed},
@@ -134,7 +134,7 @@ Kind pipe_kind() {
 
 Kind bend_kind() {
   return {"bend",
-          "a duct or a pipe with one bend, sharp or rounded",
+          "a duct or a pipe with one bend, sharp or rounded; on the x-axis from x = 0, then towards +y",
           {{"width", 7.0 * mm, "m", "width in the plane of the bend", assumed, positive},
            {"height", 3.5 * mm, "m", "height (z), across the plane of the bend", assumed, positive},
            {"diameter", 0.0, "m", "diameter of a round section; 0: rectangular, width by height", assumed},

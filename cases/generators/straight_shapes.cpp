@@ -54,7 +54,7 @@ StepSections step_sections(const Values& v) {
 
 Kind duct_kind() {
   return {"duct",
-          "a straight duct of rectangular section",
+          "a straight duct of rectangular section; a corner in the origin",
           {{"length", 50.0 * mm, "m", "length (x)", assumed, positive},
            {"width", 7.0 * mm, "m", "width (y)", assumed, positive},
            {"height", 3.5 * mm, "m", "height (z)", assumed, positive},
@@ -67,7 +67,7 @@ Kind duct_kind() {
 
 Kind box_kind() {
   return {"box",
-          "a box, its six faces named x-min ... z-max",
+          "a box, its six faces named x-min ... z-max; a corner in the origin",
           {{"x", 10.0 * mm, "m", "length (x)", assumed, positive},
            {"y", 10.0 * mm, "m", "width (y)", assumed, positive},
            {"z", 10.0 * mm, "m", "height (z)", assumed, positive},
@@ -79,7 +79,7 @@ Kind box_kind() {
 
 Kind step_kind() {
   return {"step",
-          "a backward-facing step: the floor drops by step_height at x = inlet_length",
+          "a backward-facing step: the floor drops by step_height at x = inlet_length; a corner in the origin",
           {{"inlet_height", 2.0 * mm, "m", "height (z) before the step", assumed, positive},
            {"step_height", 2.0 * mm, "m", "height of the step", assumed, positive},
            {"width", 7.0 * mm, "m", "width (y)", assumed, positive},

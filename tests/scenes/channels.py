@@ -25,7 +25,7 @@ def profile_line(flow, across, low, high, height, mid_flow, mid_side, points=21)
     return {"name": "across", "from": at(low), "to": at(high), "points": points}
 
 
-def driven(bench, flow="x", across="z", force=0.0, lid=0.0, height=H, dx=DX, numerics=None, stop=0.3, sign=1):
+def driven(bench, flow="x", across="z", force=0.0, lid=0.0, height=H, dx=DX, numerics=None, stop=0.1):
     """Plates with a body force and a moving upper plate. Gives the run, the exact profile and flow a depth."""
     side = (set(AXES) - {flow, across}).pop()
     width = 4 * dx
@@ -109,7 +109,7 @@ def film(bench):
         force = 3 * MU * 0.2 / H**2
         bounds = periodic(flow, side) | {f"{across}-{slip}": {"type": "slip"}, f"{across}-{wall}": {"type": "wall"}}
         run = bench.run(turned(flow, across, 8 * DX, 4 * DX, H), {"body_force": vector(flow, force)}, bounds,
-            {"dx": DX}, 0.6,
+            {"dx": DX}, 0.25,
                         {"statistics": 0.1, "line": [profile_line(flow, across, 0.02 * H, 0.98 * H, H, 4 * DX, 2 * DX)],
                          "plane": [{"name": "section", "normal": flow, "at": 4 * DX}],
                          "force": [f"{across}-min", f"{across}-max"]})
@@ -131,7 +131,7 @@ def plates_between_pressures(bench):
     ask = 12 * MU * 0.2 * length / H**2
     run = bench.run(box(H, 4 * DX, length), {}, {"z-max": {"type": "pressure-outlet", "pressure": ask + 2.0},
                     "z-min": {"type": "pressure-outlet", "pressure": 2.0}} | periodic("y") | walls("x-min", "x-max"),
-                    {"dx": DX}, 0.3,
+                    {"dx": DX}, 0.1,
                     {"statistics": 0.01, "plane": [{"name": f"z{i}", "normal": "z", "at": i * H} for i in (1, 2, 4,
                     5)]})
     flow = run.flow("z2")
@@ -153,7 +153,7 @@ def plates_with_inlet(bench):
         side = (set(AXES) - {flow, across}).pop()
         bounds = {f"{flow}-max": {"type": "velocity-inlet", "profile": "parabolic", "velocity": speed},
                   f"{flow}-min": {"type": "pressure-outlet"}} | periodic(side) | walls(f"{across}-min", f"{across}-max")
-        run = bench.run(turned(flow, across, length, 4 * DX, H), {}, bounds, {"dx": DX}, 0.2, {
+        run = bench.run(turned(flow, across, length, 4 * DX, H), {}, bounds, {"dx": DX}, 0.08, {
             "statistics": 0.01, "plane": [{"name": f"p{i}", "normal": flow, "at": i * H} for i in (1, 2, 3)],
             "line": [profile_line(flow, across, 0.0, H, H, 2 * H, 2 * DX)], "force": [f"{across}-min",
             f"{across}-max"]})

@@ -11,8 +11,8 @@ def periodic_prism(bench, section, length, force, dx, name="x", numerics=None, p
     return bench.run(
         {"stl": "own.stl", "unit": "mm"}, {"body_force": [force, 0.0, 0.0]},
         {"inlet": {"type": "periodic", "with": "outlet"}},
-        {"dx": dx} | (numerics or {}), 0.4,
-        {"statistics": 0.1, "plane": [{"name": "section", "normal": "x", "at": length / 2}], "force": ["wall"],
+        {"dx": dx} | (numerics or {}), 0.08,
+        {"statistics": 0.02, "plane": [{"name": "section", "normal": "x", "at": length / 2}], "force": ["wall"],
          "probe": [{"name": "mid", "at": [length / 2, *mid]}]},
         files={"own.stl": ascii_stl(section if isinstance(section, dict) else prism(section, length), unit=1e-3)})
 
@@ -82,7 +82,7 @@ def annulus(bench):
     run = bench.run(
         {"stl": "own.stl", "unit": "mm"}, {"body_force": [force, 0.0, 0.0]},
         {"inlet": {"type": "periodic", "with": "outlet"}}, {"dx": dx},
-        0.15, {"statistics": 0.05, "plane": [{"name": "section", "normal": "x", "at": length / 2}], "force": ["wall",
+        0.06, {"statistics": 0.05, "plane": [{"name": "section", "normal": "x", "at": length / 2}], "force": ["wall",
         "core"]},
         files={"own.stl": ascii_stl(ring(big, small, length), unit=1e-3)})
     log = math.log(big / small)
@@ -105,7 +105,7 @@ def rectangles_with_inlet(bench):
             {"generator": "duct", "duct": {"length": length, "width": width, "height": height}}, {},
             {"inlet": {"type": "velocity-inlet", "profile": "duct", "velocity": speed},
             "outlet": {"type": "pressure-outlet"}},
-            {"dx": dx}, 0.05,
+            {"dx": dx}, 0.03,
             {"statistics": 0.01, "plane": [{"name": f"x{i}", "normal": "x", "at": i * 1e-3} for i in (1, 2, 3)],
              "line": [{"name": "axis", "from": [0.001, width / 2, height / 2], "to": [0.003, width / 2, height / 2],
              "points": 5}], "force": ["wall"]})

@@ -38,7 +38,7 @@ def sphere_array_other_axes(bench):
             "shape": "sphere", "diameter": d,
                          "center": [size / 2] * 3, "periodic": True}}, {"body_force": vector(axis, sign * force)},
                          periodic("x", "y", "z"),
-                        {"dx": size / 24}, 0.3, {"statistics": 0.1, "force": ["obstacle"],
+                        {"dx": size / 24}, 0.12, {"statistics": 0.04, "force": ["obstacle"],
                         "plane": [{"name": "p", "normal": axis, "at": 0.05 * size}]})
         drag = sign * force * size**3
         speed = drag / (2.842 * 6 * math.pi * MU * d / 2)
@@ -60,7 +60,7 @@ def cylinders_in_a_square_array(bench):
             "shape": "cylinder", "diameter": d,
                          "center": [size / 2, size / 2, high / 2], "periodic": True}},
                          {"body_force": vector(axis, 1.0)}, periodic("x", "y", "z"),
-                        {"dx": dx}, 0.1, {"statistics": 0.05, "force": ["obstacle"],
+                        {"dx": dx}, 0.03, {"statistics": 0.01, "force": ["obstacle"],
                         "plane": [{"name": "p", "normal": axis, "at": 0.02 * size}]})
         yield (f"along {axis}: mean speed over the whole section", size**2 / (51.53 * MU),
             run.flow("p") / (size * high), 0.03)
@@ -76,7 +76,7 @@ def cube_in_a_duct(bench):
         "shape": "cube", "diameter": 0.5e-3,
                      "center": [5e-3, side / 2, side / 2]}}, {},
                      {"inlet": {"type": "velocity-inlet", "profile": "duct", "velocity": 0.2},
-                    "outlet": {"type": "pressure-outlet"}}, {"dx": side / 16}, 0.08,
+                    "outlet": {"type": "pressure-outlet"}}, {"dx": side / 16}, 0.06,
                     {"statistics": 0.02, "force": ["obstacle", "wall"],
                     "plane": [{"name": "in", "normal": "x", "at": 0.5e-3}, {"name": "out", "normal": "x",
                     "at": 11.5e-3}],

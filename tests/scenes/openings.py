@@ -35,7 +35,7 @@ def tee_two_outlets(bench):
     q = 0.3e-6
     run = bench.run({"stl": "tee.stl", "unit": "mm"}, {}, {
         "stem": {"type": "velocity-inlet", "profile": "duct", "flow_rate": q}, "low": {"type": "pressure-outlet"},
-        "high": {"type": "pressure-outlet"}}, {"dx": H / 10}, 0.06, {"statistics": 0.01, "plane": TEE_PLANES,
+        "high": {"type": "pressure-outlet"}}, {"dx": H / 10}, 0.03, {"statistics": 0.01, "plane": TEE_PLANES,
         "force": ["wall"]},
         files={"tee.stl": tee(("stem", "low", "high"))})
     yield "flow rate in the stem", q, run.flow("stem"), 0.002
@@ -49,7 +49,7 @@ def tee_two_inlets(bench):
     """Two inlets of different flow rates into one outlet; units of the flow rate."""
     run = bench.run({"stl": "tee.stl", "unit": "mm"}, {}, {
         "stem": {"type": "pressure-outlet"}, "low": {"type": "velocity-inlet", "flow_rate": "0.006 L/min"},
-        "high": {"type": "velocity-inlet", "profile": "duct", "flow_rate": "200 mm^3/s"}}, {"dx": H / 10}, 0.06,
+        "high": {"type": "velocity-inlet", "profile": "duct", "flow_rate": "200 mm^3/s"}}, {"dx": H / 10}, 0.03,
         {"statistics": 0.01, "plane": TEE_PLANES}, files={"tee.stl": tee(("stem", "low", "high"))})
     yield "lower arm", 0.1e-6, run.flow("low"), 0.002
     yield "upper arm, down", -0.2e-6, run.flow("high"), 0.002
@@ -63,7 +63,7 @@ def tee_pressures(bench):
     p = {"stem": 0.06, "low": 0.02, "high": 0.0}
     run = bench.run({"stl": "tee.stl", "unit": "mm"}, {}, {k: {"type": "pressure-outlet", "pressure": v} for k,
         v in p.items()},
-                    {"dx": H / 10}, 0.1, {"statistics": 0.01, "plane": TEE_PLANES},
+                    {"dx": H / 10}, 0.06, {"statistics": 0.01, "plane": TEE_PLANES},
                     files={"tee.stl": tee(("stem", "low", "high"))})
     conduct = rectangle_series(H, H)[0] / MU / 4.5e-3
     middle = sum(p.values()) / 3
@@ -83,7 +83,7 @@ def both_openings_on_one_side(bench):
     q = 0.2e-6
     run = bench.run({"stl": "u.stl", "unit": "mm"}, {}, {"in": {"type": "velocity-inlet", "profile": "duct",
         "flow_rate": q},
-                    "out": {"type": "pressure-outlet", "pressure": 3.0}}, {"dx": H / 10}, 0.06,
+                    "out": {"type": "pressure-outlet", "pressure": 3.0}}, {"dx": H / 10}, 0.03,
                     {"statistics": 0.01, "plane": [{"name": "all", "normal": "x", "at": 2e-3}, {"name": "turn",
                     "normal": "z", "at": 1.5e-3}],
                      "probe": [{"name": f"{n}{x}", "at": [x * 1e-3, 0.5e-3, z]} for n, z in (("in", 0.5e-3),
@@ -147,7 +147,7 @@ def cells_for_dx(bench):
     run = bench.run({"generator": "duct", "duct": {"length": 4e-3, "width": 1e-3, "height": 1e-3}}, {},
                     {"inlet": {"type": "velocity-inlet", "profile": "duct", "velocity": 0.3},
                     "outlet": {"type": "pressure-outlet"}},
-                    {"cells": 10000}, 0.05, {"statistics": 0.01,
+                    {"cells": 10000}, 0.03, {"statistics": 0.01,
                     "plane": [{"name": f"x{i}", "normal": "x", "at": i * 1e-3} for i in (1, 3)]})
     yield "cells", 10000, run.summary["cells_fluid"], 0.1
     p = [run.last("planes", plane=n)["static_pressure"] for n in ("x1", "x3")]
@@ -164,7 +164,7 @@ def turbulence_at_an_inlet(bench):
         "turbulence": intensity},
                     "x-max": {"type": "pressure-outlet"}} | {f: {"type": "slip"}
                     for f in ("y-min", "y-max", "z-min", "z-max")},
-                    {"dx": dx}, 0.04, {"statistics": 5e-5, "probe": [{"name": n, "at": p} for n, p in names]})
+                    {"dx": dx}, 0.02, {"statistics": 5e-5, "probe": [{"name": n, "at": p} for n, p in names]})
     rows = [r for r in run.rows("probes") if r["time"] > 0.002]
     for component, mean in (("u", speed), ("v", 0.0), ("w", 0.0)):
         values = [r[component] for r in rows]

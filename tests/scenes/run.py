@@ -27,6 +27,14 @@ def judge(expected, got, tolerance):
     return error, "ok" if abs(error) <= tolerance else "OUT"
 
 
+def write(path, table):
+    """The table so far."""
+    with open(path, "w", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(["scene", "quantity", "expected", "got", "error", "tolerance", "verdict", "seconds"])
+        writer.writerows(table)
+
+
 def main():
     options = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     options.add_argument("--puffin", default="build/release/puffin")
@@ -56,11 +64,8 @@ def main():
             print(f"{name:28} {quantity:62} {expected:12.6g} {got:12.6g} {error:10.2g} {verdict}", flush=True)
             table.append([name, quantity, f"{expected:.6g}", f"{got:.6g}", f"{error:.2g}", f"{tolerance:g}", verdict,
                           f"{bench.seconds:.1f}"])
-    if chosen.out:
-        with open(chosen.out, "w", newline="") as file:
-            writer = csv.writer(file, lineterminator="\n")
-            writer.writerow(["scene", "quantity", "expected", "got", "error", "tolerance", "verdict", "seconds"])
-            writer.writerows(table)
+        if chosen.out:
+            write(chosen.out, table)
     print(f"{commit}: {len(table)} numbers, {bad} out of tolerance", file=sys.stderr)
     if not chosen.work:
         shutil.rmtree(work, ignore_errors=True)

@@ -213,7 +213,7 @@ def slanted_lid(bench):
     """A lid that moves along (1, 2, 0) between periodic sides: both components are Couette's, forces too."""
     run = bench.run(box(6 * DX, 6 * DX, H), {}, periodic("x", "y") |
         {"z-min": {"type": "moving-wall", "velocity": [0.1, 0.2, 0.0]},
-                    "z-max": {"type": "moving-wall", "velocity": [-0.1, 0.0, 0.0]}}, {"dx": DX}, 0.25,
+                    "z-max": {"type": "moving-wall", "velocity": [-0.1, 0.0, 0.0]}}, {"dx": DX}, 0.1,
                     {"statistics": 0.05, "probe": [{"name": "p", "at": [DX, DX, 0.25 * H]}], "force": ["z-min",
                     "z-max"]})
     p, area = run.last("probes"), 36 * DX**2
