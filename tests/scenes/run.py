@@ -14,7 +14,8 @@ import sys
 import tempfile
 import traceback
 
-import scene
+sys.dont_write_bytecode = True  # no __pycache__ in the tree
+import scene  # noqa: E402
 import channels  # noqa: F401  each of these adds its scenes to scene.SCENES
 import ducts  # noqa: F401
 import forces  # noqa: F401
