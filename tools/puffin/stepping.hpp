@@ -46,7 +46,6 @@ class Stepping {
   double output_seconds() const { return output_seconds_; }
 
  private:
-  bool finished() const;
   void step();
   void look_after();
   void remember(coupling::Checkpoint& checkpoint) const;
