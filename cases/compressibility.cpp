@@ -14,6 +14,7 @@ namespace puffin::cases {
 namespace {
 
 constexpr double most_change = 0.01;  // of the density
+constexpr double most_tau = 1.0;      // walls and fast changes are inaccurate above
 constexpr double turbulent = 2300.0;  // Reynolds number above which friction is not laminar
 
 /// Per patch: whether the air rubs on it.
@@ -112,6 +113,18 @@ LatticeSpeed lattice_speed(const Case& c, const Surface& surface, double referen
     return result;
   }
   const double range = change(result.value);
+  const double dx = cell_size(c.numerics, surface.volume);
+  const double viscous = 3.0 * c.air.viscosity / c.air.density / (reference_speed * dx);  // tau - 1/2 over u_lb
+  const double tau = 0.5 + viscous * result.value;
+  if (const double calm = (most_tau - 0.5) / viscous; tau > most_tau && change(calm) <= most_change) {
+    std::snprintf(text, sizeof text,
+                  "so slow and viscous a flow would have tau = %.3g at lattice_speed %.3g, and walls are inaccurate "
+                  "above 1: the run takes %.3g (tau 1)",
+                  tau, result.value, calm);
+    result.value = calm;
+    result.warning = text;
+    return result;
+  }
   if (range <= most_change) return result;
   const double tame = result.value * std::sqrt(most_change / range);
   std::snprintf(

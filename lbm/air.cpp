@@ -162,37 +162,6 @@ void set_cells(const std::function<InitialCell(const Vec3& centre)>& state, Air&
       air.populations);
 }
 
-std::array<double, 3> force_on_patch(const Air& air, int boundary) {
-  std::array<double, 3> force = force_on_cells(air, boundary);
-  std::visit(
-      [&]<class T>(const Populations<T>& p) {
-        const Parity last = p.next == Parity::even ? Parity::odd : Parity::even;
-        for (const WallRun& wall : air.links.walls) {
-          const Run& run = air.rows.runs()[wall.run];
-          int k = 0;
-          for (int i = 1; i < d3q19::q; ++i) {
-            if (!(wall.directions >> i & 1U)) continue;
-            for (int n = 0; n < wall.count; ++n) {
-              if (air.links.wall_patch[wall.coefficient + static_cast<std::size_t>(k) * wall.count + n] != boundary)
-                continue;
-              const std::ptrdiff_t slot = wall.first + n;
-              const double exchanged = p.departed(run, slot, i, last) + p.arrived(run, slot, d3q19::opposite(i));
-              for (int d = 0; d < 3; ++d) force[d] += exchanged * d3q19::velocity[i][d];
-            }
-            ++k;
-          }
-        }
-        for (const SlipLink& link : air.links.slip) {
-          if (link.patch != boundary) continue;
-          const double f = p.departed(air.rows.runs()[link.source_run], link.source, link.source_direction, last);
-          const auto &in = d3q19::velocity[link.source_direction], &out = d3q19::velocity[link.direction];
-          for (int d = 0; d < 3; ++d) force[d] += f * (in[d] + out[d]);  // what comes back moves against `direction`
-        }
-      },
-      air.populations);
-  return force;
-}
-
 double mass_through(const Air& air, int boundary) {
   return std::visit(
       [&]<class T>(const Populations<T>& p) {

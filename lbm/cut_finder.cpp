@@ -67,25 +67,35 @@ std::vector<Cut> CutFinder::cuts(const Run& run, std::ptrdiff_t slot, std::size_
     const Vec3 link = rows_.dx() * Vec3(c[0], c[1], c[2]);
     double t = 2.0;  // of the link moved aside
     int triangle = -1;
+    Vec3 from = centre;
     for (const Vec3& shift : shifts_) {
       if (!tree_) break;
       const auto hit = tree_->first_hit(centre + shift + aside_, link, 1.0);
       if (hit && hit->t < t) {
         t = hit->t;
         triangle = original_[hit->triangle];
+        from = centre + shift;
       }
     }
     const auto patch = static_cast<std::int16_t>(triangle >= 0 ? surface_.patch_of_triangle[triangle] : -1);
     if (solid) {
       if (triangle < 0) ++missed;
       found.push_back({static_cast<std::int8_t>(i), false, patch, wall_distance(t, triangle, link)});
-    } else if (triangle >= 0 && t < 1.0 - 1e-9) {
+    } else if (triangle >= 0 && t < 1.0 - 1e-9 && !grazes(from, link, t, triangle)) {
       found.push_back({static_cast<std::int8_t>(i), true, patch, wall_distance(t, triangle, link)});
     } else if (i > 6 && closed_corner(run, slot, c)) {
       found.push_back({static_cast<std::int8_t>(i), true, -1, 0.5F});
     }
   }
   return found;
+}
+
+bool CutFinder::grazes(const Vec3& from, const Vec3& link, double t, int triangle) const {
+  const auto exit = tree_->first_hit(from + link + aside_, -link, 1.0);
+  if (!exit || (1.0 - exit->t - t) * link.norm() > 8.0 * aside_.norm()) return false;
+  const Vec3 in = surface_.mesh->area_vector(triangle).normalized(),
+             out = surface_.mesh->area_vector(original_[exit->triangle]).normalized();
+  return in.dot(out) > -0.9;
 }
 
 float CutFinder::wall_distance(double t, int triangle, const Vec3& link) const {

@@ -28,6 +28,9 @@ class CutFinder {
  private:
   /// Where the link itself meets the plane of the triangle that it meets at t when moved aside; t for a grazing one.
   float wall_distance(double t, int triangle, const geometry::Vec3& link) const;
+  /// A link that meets the surface at t of its length leaves it at once: it touches a corner's edge, where being moved
+  /// aside brought it in (beside two edges of four, if all lie on faces of cells). A sheet has opposite normals.
+  bool grazes(const geometry::Vec3& from, const geometry::Vec3& link, double t, int triangle) const;
   bool is_solid(std::ptrdiff_t slot) const;
   std::ptrdiff_t active(std::ptrdiff_t slot) const;
   bool is_fluid(std::ptrdiff_t slot) const { return kinds_.fluid.empty() || kinds_.fluid[slot] != 0; }

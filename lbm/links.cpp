@@ -57,12 +57,27 @@ Links build_links(const Rows& rows, const LinkGeometry& surface, WallScheme sche
   const auto kind_of = [&](const Cut& cut) {
     return cut.patch < 0 ? BoundaryKind::wall : surface.boundaries[cut.patch].kind;
   };
+  // Through the edge between a slip wall and an opening: the air beyond the slip wall is the mirror image of this side,
+  // so what comes back is what comes from the opening (as a wall it held the air beside the edge).
+  const auto open_edges = [&](std::vector<Cut>& cuts) {
+    for (Cut& cut : cuts) {
+      if (cut.thin || cut.direction <= 6 || kind_of(cut) != BoundaryKind::slip) continue;
+      for (const Cut& face : cuts) {
+        const auto &c = d3q19::velocity[cut.direction], &f = d3q19::velocity[face.direction];
+        const bool part = face.direction <= 6 && c[0] * f[0] + c[1] * f[1] + c[2] * f[2] > 0;
+        const BoundaryKind kind = kind_of(face);
+        if (part && (kind == BoundaryKind::velocity_inlet || kind == BoundaryKind::pressure_outlet))
+          cut.patch = face.patch;
+      }
+    }
+  };
   const double dx = rows.dx();
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const Run& run = runs[r];
     int previous_end = -1;
     for (int n = 0; n < run.count; ++n) {
-      const auto& cuts = of_run[r][n];
+      auto& cuts = of_run[r][n];
+      open_edges(cuts);
       if (cuts.empty()) continue;
       const std::ptrdiff_t slot = run.first + n;
       const Vec3 centre = rows.centre(slot);

@@ -1,5 +1,9 @@
 #include "lbm/openings.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 namespace puffin::lbm {
 
 using geometry::Vec3;
@@ -12,6 +16,14 @@ T& returning(const Run& run, const OpeningLink& link, Parity last, Populations<T
   const int i = link.direction, o = d3q19::opposite(i);
   if (last == Parity::even) return p.f[i * p.stride + link.slot + neighbour_offset(run, i)];
   return p.f[o * p.stride + link.slot];
+}
+
+/// The lowest of the pressures at the outlets, as an excess of density.
+double lowest_outlet(const Air& air, const Drive& drive) {
+  double lowest = std::numeric_limits<double>::infinity();
+  for (std::size_t b = 0; b < air.boundaries.size(); ++b)
+    if (air.boundaries[b].kind == BoundaryKind::pressure_outlet) lowest = std::min(lowest, drive.density_excess[b]);
+  return lowest;
 }
 
 }  // namespace
@@ -33,6 +45,7 @@ std::int64_t apply_outlets(const Air& air, const Drive& drive, Parity last, std:
                            Populations<T>& p) {
   std::int64_t cut = 0;
   const auto& list = air.links.outlets;
+  const double lowest = lowest_outlet(air, drive);
   for (std::size_t k = first; k < end;) {
     const std::ptrdiff_t slot = list[k].slot;
     const Run& run = air.rows.runs()[list[k].run];
@@ -45,9 +58,13 @@ std::int64_t apply_outlets(const Air& air, const Drive& drive, Parity last, std:
       j += f * Vec3(c[0], c[1], c[2]);
     }
     Vec3 u = j / (1.0 + drho);
-    if (u.dot(air.normal[list[k].patch]) < 0.0) {
-      u.setZero();
-      ++cut;
+    const double head = 1.5 * u.squaredNorm();  // its dynamic pressure, as an excess of density
+    if (head > 0.0 && u.dot(air.normal[list[k].patch]) < 0.0) {
+      const double driving = drive.density_excess[list[k].patch] - lowest;
+      if (head > driving) {
+        u *= std::sqrt(driving / head);
+        ++cut;
+      }
     }
     for (; k < end && list[k].slot == slot; ++k) {
       const int i = list[k].direction;

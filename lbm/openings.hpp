@@ -15,8 +15,11 @@ void apply_inlets(const Air& air, const Drive& drive, Parity last, std::size_t f
 
 /// Anti-bounce-back at the outlet links [first, end), which divide no cell:
 ///   f_in = -f_out + 2 w rho (1 + 9/2 (c.u)^2 - 3/2 u^2),
-/// u that of the cell, and zero where it points into the domain: with back-flow the term would feed itself. Returns the
-/// number of cells with back-flow. Source: Ginzburg, Verhaeghe & d'Humieres, Commun. Comput. Phys. 3, 427 (2008).
+/// u that of the cell. Where it points into the domain the term would feed itself: u is shortened until its dynamic
+/// pressure is at most what this outlet lies above the lowest one, which is all that air at rest could have gained. So
+/// air enters at the static pressure asked where pressures drive the flow, and back-flow at the lowest (or only) outlet
+/// is cut: u = 0. Returns the number of cells whose u was shortened. Source: Ginzburg, Verhaeghe & d'Humieres, Commun.
+/// Comput. Phys. 3, 427 (2008).
 template <class T>
 std::int64_t apply_outlets(const Air& air, const Drive& drive, Parity last, std::size_t first, std::size_t end,
                            Populations<T>& p);

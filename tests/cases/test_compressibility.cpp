@@ -34,6 +34,16 @@ TEST(Compressibility, FrictionLowersTheLatticeSpeedAndIsTold) {
   EXPECT_NE(speed.warning.find("the run takes 0.00589"), std::string::npos) << speed.warning;
 }
 
+// Creeping flow at 1 mm/s, nothing to compress it: tau = 1/2 + 3 nu u_lb/(U dx) = 1/2 + 3 1.5e-5/(0.001 2e-4) 0.1 = 23;
+// tau 1 wants u_lb = 0.5/225. As it was, drag in an array of spheres came out at half of what it is.
+TEST(Compressibility, CreepingFlowTakesARelaxationTimeOfOne) {
+  Case c = narrow_duct();
+  c.air.boundaries.clear();
+  const LatticeSpeed speed = lattice_speed(c, load_surface(c), 0.001);
+  EXPECT_NEAR(speed.value, 0.5 / 225.0, 1e-12);
+  EXPECT_NE(speed.warning.find("tau = 23 "), std::string::npos) << speed.warning;
+}
+
 TEST(Compressibility, ASpeedThatIsLowEnoughStays) {
   Case c = narrow_duct();
   c.numerics.lattice_speed = 0.005;

@@ -27,6 +27,10 @@ PointReader::PointReader(const cases::Simulation& s) {
   if (!walls->triangles.empty()) walls_ = std::make_shared<const lbm::geometry::TriangleTree>(walls);
 }
 
+namespace {
+constexpr double whole = 1.0 - 1e-6;  // weight of eight cells that are all in the fluid
+}
+
 PointReader::Mean PointReader::mean_of_cells(const cases::Simulation& s, const Vec3& x) const {
   const auto& rows = s.state.air->rows;
   const Vec3 at = (x - rows.origin()) / rows.dx();
@@ -57,11 +61,32 @@ PointReader::Mean PointReader::mean_of_cells(const cases::Simulation& s, const V
   return mean;
 }
 
+PointReader::Mean PointReader::curved_mean(const cases::Simulation& s, const Vec3& x) const {
+  const Mean linear = mean_of_cells(s, x);
+  if (linear.weight < whole) return linear;
+  const auto& rows = s.state.air->rows;
+  Mean curved = linear;
+  for (int d = 0; d < 3; ++d) {
+    const double at = (x[d] - rows.origin()[d]) / rows.dx(), part = at - std::floor(at);
+    const double bend = 0.5 * part * (1.0 - part);
+    if (bend < 1e-9) continue;
+    const Vec3 cell = rows.dx() * Vec3::Unit(d);
+    for (const int middle : {0, 1, -1}) {  // the second difference around the point, else beside it
+      const auto at_step = [&](int n) { return n == 0 ? linear : mean_of_cells(s, x + n * cell); };
+      const Mean a = at_step(middle - 1), b = at_step(middle), c = at_step(middle + 1);
+      if (std::min({a.weight, b.weight, c.weight}) < whole) continue;
+      curved.reading.velocity -= bend * (a.reading.velocity - 2.0 * b.reading.velocity + c.reading.velocity);
+      curved.reading.pressure -= bend * (a.reading.pressure - 2.0 * b.reading.pressure + c.reading.pressure);
+      break;
+    }
+  }
+  return curved;
+}
+
 std::optional<PointReading> PointReader::read(const cases::Simulation& s, const Vec3& x) const {
   if (!s.state.air) return std::nullopt;
-  constexpr double whole = 1.0 - 1e-6;
   const double dx = s.state.air->rows.dx();
-  Mean mean = mean_of_cells(s, x);
+  Mean mean = curved_mean(s, x);
   if (mean.weight >= whole) return mean.reading;
   const auto near = walls_ ? walls_->closest(x, dx) : lbm::geometry::Closest{};
   if (near.triangle < 0) {
@@ -76,7 +101,7 @@ std::optional<PointReading> PointReader::read(const cases::Simulation& s, const 
   Vec3 wall = Vec3::Zero();
   if (boundary.profile && s.models.patches[patch].speed)
     wall = s.models.patches[patch].speed(s.state.time) * boundary.profile(near.point);
-  const Mean one = mean_of_cells(s, near.point + dx * inward), two = mean_of_cells(s, near.point + 2.0 * dx * inward);
+  const Mean one = curved_mean(s, near.point + dx * inward), two = curved_mean(s, near.point + 2.0 * dx * inward);
   const double a = std::max(0.0, distance) / dx;
   if (one.weight < 0.5) {
     if (mean.weight < 1e-6) return std::nullopt;

@@ -97,7 +97,7 @@ std::vector<output::StatsColumn> stats_columns() {
 }
 
 Recorder::Recorder(const cases::Simulation& s, const output::OutputFolder& folder, const RecorderState* resume)
-    : folder_(folder), drops_(s), points_(s) {
+    : folder_(folder), drops_(s), force_reader_(s), points_(s) {
   const cases::Output& out = s.description.output;
   statistics_.interval = out.statistics;
   carriers_.interval = s.description.carriers ? out.carriers : cases::never;
@@ -262,7 +262,7 @@ void Recorder::record_statistics(const cases::Simulation& s) {
                      output::PlaneRow{t, plane.name, r->flow_rate, r->static_pressure, r->total_pressure});
   }
   for (const auto& patch : out.forces) {
-    const Vec3 f = read_force(s, patch);
+    const Vec3 f = force_reader_.read(s, patch);
     output::append(*forces_csv_, output::ForceRow{t, patch, {f[0], f[1], f[2]}});
   }
   for (std::size_t k = 0; k < out.lines.size(); ++k)

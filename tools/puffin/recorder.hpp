@@ -52,6 +52,7 @@ class Recorder {
 
   const std::vector<output::HistoryRow>& history() const { return history_; }
   const DropReader& drops() const { return drops_; }
+  const ForceReader& forces() const { return force_reader_; }
 
  private:
   void record_statistics(const cases::Simulation& s);
@@ -65,6 +66,7 @@ class Recorder {
 
   const output::OutputFolder& folder_;
   DropReader drops_;
+  ForceReader force_reader_;
   PointReader points_;
   Interval statistics_, carriers_;
   std::vector<Interval> fields_;

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "lbm/plane_flux.hpp"
+#include "lbm/wall_force.hpp"
 
 namespace puffin::tools {
 
@@ -47,24 +48,39 @@ DropReader::DropReader(const cases::Simulation& s) {
   };
   collect(air.links.inlets, inlet_);
   collect(air.links.outlets, outlet_);
+  const auto other = [&](const Cell& c) { return c.patch != outlet_.front().patch; };
+  between_pressures_ = inlet_.empty() && std::any_of(outlet_.begin(), outlet_.end(), other);
 }
 
 DropReading DropReader::read(const cases::Simulation& s) const {
   DropReading reading;
-  for (const auto& patch : s.models.patches)
+  std::vector<char> enters(s.models.patches.size(), 0);
+  for (std::size_t b = 0; b < s.models.patches.size(); ++b) {
+    const auto& patch = s.models.patches[b];
     if (patch.is_inlet) reading.flow_rate += patch.speed(s.state.time) * patch.area;
-  if (!has_both()) return reading;
-  double p_in = 0.0, p_out = 0.0, flux = 0.0, carried = 0.0;
-  for (const Cell& c : inlet_) {
-    const PointReading r = read_cell(s, c.slot);
-    const double inward = std::max(0.0, -r.velocity.dot(s.state.air->normal[c.patch]));
-    p_in += r.pressure;
-    flux += inward;
-    carried += inward * total_pressure(s, r);
+    enters[b] = patch.is_inlet ? 1 : 0;
+    if (!between_pressures_ || s.state.air->boundaries[b].kind != lbm::BoundaryKind::pressure_outlet) continue;
+    const double in = lbm::mass_through(*s.state.air, static_cast<int>(b));
+    enters[b] = in > 0.0 ? 1 : 0;
+    reading.flow_rate += std::max(0.0, in) * s.state.scale.flow_rate();
   }
-  for (const Cell& c : outlet_) p_out += read_cell(s, c.slot).pressure;
-  p_in /= static_cast<double>(inlet_.size());
-  p_out /= static_cast<double>(outlet_.size());
+  if (!has_both()) return reading;
+  double p_in = 0.0, p_out = 0.0, flux = 0.0, carried = 0.0, cells_in = 0.0, cells_out = 0.0;
+  for (const auto* cells : {&inlet_, &outlet_})
+    for (const Cell& c : *cells) {
+      const PointReading r = read_cell(s, c.slot);
+      if (enters[c.patch] == 0) {
+        p_out += r.pressure, cells_out += 1.0;
+        continue;
+      }
+      const double inward = std::max(0.0, -r.velocity.dot(s.state.air->normal[c.patch]));
+      p_in += r.pressure, cells_in += 1.0;
+      flux += inward;
+      carried += inward * total_pressure(s, r);
+    }
+  if (cells_in == 0.0 || cells_out == 0.0) return reading;  // nothing moves yet
+  p_in /= cells_in;
+  p_out /= cells_out;
   reading.static_drop = p_in - p_out;
   reading.total_to_static_drop = (flux > 0.0 ? carried / flux : p_in) - p_out;
   return reading;
@@ -194,15 +210,26 @@ std::optional<PlaneReading> read_plane(const cases::Simulation& s, int axis, dou
   return r;
 }
 
-Vec3 read_force(const cases::Simulation& s, const std::string& patch) {
+ForceReader::ForceReader(const cases::Simulation& s) {
+  if (!s.state.air || !s.models.body_force || s.description.output.forces.empty()) return;
+  lbm::LinkGeometry surface;
+  surface.mesh = &s.surface.mesh;
+  surface.patch_of_triangle = s.surface.patches.of_triangle;
+  excess_ = lbm::wall_excess(*s.state.air, surface);
+}
+
+Vec3 ForceReader::read(const cases::Simulation& s, const std::string& patch) const {
   const lbm::Air& air = *s.state.air;
   Vec3 sum = Vec3::Zero();
+  double excess = 0.0;
   const int one = s.surface.patches.find(patch);
   for (int b = 0; b < static_cast<int>(air.boundaries.size()); ++b) {
     if (one >= 0 ? b != one : air.boundaries[b].kind != lbm::BoundaryKind::wall) continue;
     const auto f = lbm::force_on_patch(air, b);
     sum += s.state.scale.force() * Vec3(f[0], f[1], f[2]);
+    if (!excess_.empty()) excess += excess_[b];
   }
+  if (excess != 0.0) sum -= excess * std::pow(s.state.scale.dx, 3) * s.models.body_force(s.state.time);
   return sum;
 }
 

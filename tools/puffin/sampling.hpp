@@ -18,11 +18,11 @@ struct PointReading {
 /// Velocity and pressure of one active cell, in the middle of a step: half of the uniform body force included.
 PointReading read_cell(const cases::Simulation& s, std::ptrdiff_t slot);
 
-/// Reads the air at points: trilinear between cell centres; across a periodic face from the other side. Where some of
-/// the eight cells around a point are not fluid and a wall is nearer than a cell, the velocity follows the parabola
-/// through the wall's own velocity and the readings one and two cells further along the wall's normal (linear where the
-/// second is missing): second order up to the wall. Elsewhere the cells outside the fluid are left out and the rest
-/// weighted to 1; so is the pressure, whose slope across a wall is small.
+/// Reads the air at points: a parabola along each axis between cell centres; across a periodic face from the other
+/// side. Where some of the eight cells around a point are not fluid and a wall is nearer than a cell, the velocity
+/// follows the parabola through the wall's own velocity and the readings one and two cells further along the wall's
+/// normal (linear where the second is missing): second order up to the wall. Elsewhere the cells outside the fluid are
+/// left out and the rest weighted to 1; so is the pressure, whose slope across a wall is small.
 class PointReader {
  public:
   PointReader() = default;
@@ -38,7 +38,10 @@ class PointReader {
     PointReading reading;
     double weight = 0.0;  // of the fluid among the eight cells
   };
-  Mean mean_of_cells(const cases::Simulation& s, const coupling::Vec3& x) const;
+  Mean mean_of_cells(const cases::Simulation& s, const coupling::Vec3& x) const;  // trilinear
+  /// Less the curvature between the cells, half of part (1 - part) of the second difference along each axis: a parabola
+  /// is read as it is. Trilinear where cells are missing.
+  Mean curved_mean(const cases::Simulation& s, const coupling::Vec3& x) const;
 
   std::shared_ptr<const lbm::geometry::TriangleTree> walls_;  // the air sticks to these; empty: none
   std::vector<int> patch_;                                    // per triangle of walls_
@@ -53,12 +56,13 @@ struct DropReading {
   double total_to_static_drop = 0.0;  // flux-weighted total pressure at the inlets minus static at the outlets [Pa]
 };
 
-/// Reads pressure drops on the cells beside the openings; which cells these are is found once.
+/// Reads pressure drops on the cells beside the openings; which cells these are is found once. Where no boundary gives
+/// the flow, the openings at which air enters at the moment are the inlets, and what enters is the flow rate.
 class DropReader {
  public:
   explicit DropReader(const cases::Simulation& s);
   DropReading read(const cases::Simulation& s) const;
-  bool has_both() const { return !inlet_.empty() && !outlet_.empty(); }
+  bool has_both() const { return (!inlet_.empty() && !outlet_.empty()) || between_pressures_; }
 
  private:
   struct Cell {
@@ -66,6 +70,18 @@ class DropReader {
     int patch;
   };
   std::vector<Cell> inlet_, outlet_;
+  bool between_pressures_ = false;  // no inlet, two outlets or more
+};
+
+/// Forces of the air on patches [N].
+class ForceReader {
+ public:
+  explicit ForceReader(const cases::Simulation& s);
+  /// "wall" means all walls if no patch is called so.
+  coupling::Vec3 read(const cases::Simulation& s, const std::string& patch) const;
+
+ private:
+  std::vector<double> excess_;  // volume on which a body force acts too much, per boundary [dx^3]; empty: no body force
 };
 
 struct PlaneReading {
@@ -87,8 +103,5 @@ Totals read_totals(const cases::Simulation& s);
 /// cells, else the nearer. The lattice keeps mass, so in steady flow every plane across a channel reads one flow rate.
 /// Empty: the plane meets no fluid.
 std::optional<PlaneReading> read_plane(const cases::Simulation& s, int axis, double at);
-
-/// Force of the air on a patch [N]; "wall" means all walls if no patch is called so.
-coupling::Vec3 read_force(const cases::Simulation& s, const std::string& patch);
 
 }  // namespace puffin::tools

@@ -239,7 +239,7 @@ output::Summary summarize(const cases::Simulation& s, const Recorder& recorder, 
       r.air_mass = {m.lost_share(), m.returned_share(), m.missing_share(), m.corrections};
     if (recorder.drops().has_both()) r.pressure = pressures(s, recorder.history());
     for (const auto& patch : s.description.output.forces) {
-      const auto f = read_force(s, patch);
+      const auto f = recorder.forces().read(s, patch);
       r.forces.push_back({patch, f[0], f[1], f[2]});
     }
   } else {

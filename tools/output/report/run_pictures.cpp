@@ -115,6 +115,10 @@ RunPicture geometry_picture_of_run() {
           {}};
 }
 
+RunPicture slice_picture_of_run() {
+  return {"slice", View::slice, {}, "Speed on the middle plane at the last stored moment.", {}};
+}
+
 RunPicture wall_map_picture_of_run(const std::string& quantity) {
   RunPicture p{quantity == "fines" ? "wall-map" : "wall-" + quantity,
                View::wall_map,

@@ -26,6 +26,7 @@ std::vector<RunPicture> flight_pictures(const std::filesystem::path& run, const 
 /// What is left in the device at the end; small to stand beside others.
 RunPicture retained_picture(const Summary& summary, bool small = false);
 RunPicture geometry_picture_of_run();
+RunPicture slice_picture_of_run();
 RunPicture wall_map_picture_of_run(const std::string& quantity);
 
 /// The figure with the picture inside. Paints images/NAME.png, or takes the one that is there if `kept` and it is no

@@ -251,7 +251,7 @@ std::string slice(const Run& run) {
   if (!can_render(run.folder, View::slice)) {
     return out + left_out("no fields are stored; add an entry to [output] fields.");
   }
-  out += embedded(run.folder, {"slice", View::slice, {}, "Speed on the middle plane at the last stored moment.", {}});
+  out += embedded(run.folder, slice_picture_of_run());
   const std::vector<RunPicture> lines = streamline_pictures(run.folder);
   if (lines.empty())
     return out +
