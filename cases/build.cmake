@@ -1,4 +1,5 @@
 set(PUFFIN_BUILD_SOURCES
+  bed_store.cpp
   build.cpp
   build_air.cpp
   build_boundaries.cpp
@@ -7,6 +8,7 @@ set(PUFFIN_BUILD_SOURCES
   check_boundaries.cpp
   check_tables.cpp
   compressibility.cpp
+  fill.cpp
   initial_air.cpp
   inlet_profile.cpp
   opening.cpp

@@ -11,9 +11,11 @@
 
 namespace puffin::cases {
 
-std::unique_ptr<Simulation> build(const Case& c, const StoredFieldReader& stored_field, double available) {
+std::unique_ptr<Simulation> build(const Case& c, const StoredFieldReader& stored_field, double available,
+                                  const std::filesystem::path& beds) {
   auto s = std::make_unique<Simulation>();
   s->description = c;
+  s->beds = beds;
   s->surface = load_surface(c);
   for (const lbm::geometry::Defect& d : s->surface.defects)
     if (d.kind == "duplicate facet") s->warnings.push_back(d.kind + ": " + d.message);

@@ -1,6 +1,7 @@
 #pragma once
 // From a checked Case to a simulation that is ready to step.
 
+#include <filesystem>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -28,6 +29,8 @@ struct Simulation {
   std::vector<std::string> warnings;              // what the run does otherwise than described, or cannot do well
   double dose_mass = 0.0;                         // carriers with their fines [kg]
   std::string dose;                               // one line on how the carriers lie at the start
+  std::filesystem::path beds;                     // where settled beds are kept; empty: nowhere
+  bool bed_was_kept = false;                      // the dose lies as an earlier run has left it there
   std::function<Vec3(const Vec3&)> stored_field;  // velocity [m/s] of another run, air.field = { run = ... }
   coupling::Models models;
   coupling::State state;
@@ -38,10 +41,12 @@ struct Simulation {
 using StoredFieldReader = std::function<std::function<Vec3(const Vec3&)>(const RunField&)>;
 
 /// available: memory [byte]; a case that needs for certain more is refused before it takes any.
+/// beds: a folder for settled beds (bed_store.hpp); empty: every dose settles anew.
 /// Throws CaseError (what the geometry or a table beside the case shows to be wrong), GeometryError, StlError,
 /// GeneratorError, TooLarge (room.hpp), std::invalid_argument with a remedy.
 std::unique_ptr<Simulation> build(const Case& c, const StoredFieldReader& stored_field = {},
-                                  double available = std::numeric_limits<double>::infinity());
+                                  double available = std::numeric_limits<double>::infinity(),
+                                  const std::filesystem::path& beds = {});
 
 // The parts, in their order; each adds to the simulation.
 void build_air(Simulation& s);

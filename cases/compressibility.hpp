@@ -26,7 +26,7 @@ struct LatticeSpeed {
 /// Narrow passages behind a wide inlet are not seen: the run measures its density at the end.
 double expected_pressure_difference(const Case& c, const Surface& surface, double reference_speed);
 
-/// numerics.lattice_speed, lowered until `expected_pressure_difference` changes the density by at most 1 % and tau is
+/// numerics.lattice_speed, lowered until `expected_pressure_difference` changes the density by at most 0.5 % and tau is
 /// at most 1 at the reference speed. A time step given in seconds stays, with a warning. reference_speed: U [m/s],
 /// positive.
 LatticeSpeed lattice_speed(const Case& c, const Surface& surface, double reference_speed);

@@ -11,6 +11,28 @@
 
 namespace puffin::coupling {
 
+namespace {
+
+struct Draught {
+  Vec3 x = Vec3::Zero();  // centre of the cell [m]
+  double part = 0.0;      // of its air that goes through one of its faces in an air step
+};
+
+/// Where the air's mass fluxes are largest beside the air that is there; a cell that is no number comes first.
+Draught strongest_draught(const lbm::Rows& rows, const lbm::FaceFluxes& fluxes) {
+  Draught worst;
+  for (const auto& run : rows.runs())
+    for (std::ptrdiff_t slot = run.first; slot < run.first + run.count; ++slot)
+      for (const auto& mass : fluxes.mass) {
+        const double part = std::abs(mass[slot]) / fluxes.density[slot];
+        if (!std::isfinite(part)) return {rows.centre(slot), part};
+        if (part > worst.part) worst = {rows.centre(slot), part};
+      }
+  return worst;
+}
+
+}  // namespace
+
 std::optional<double> counted_from(const Models& models, const State& s) {
   return models.settling ? s.first_motion.time() : std::optional(0.0);
 }
@@ -98,7 +120,9 @@ void carry_fines(const Models& models, bool now, State& s) {
             ? steps_per_update(std::min(allowed, steps_diffusion_follows(options)), models.steps_per_exchange)
             : 1.0;
   } catch (const std::runtime_error& e) {
-    diverge("%s (t = %.6g s)", e.what(), s.time);
+    const Draught worst = strongest_draught(s.air->rows, s.fluxes);
+    diverge("%s (t = %.6g s): the cell at [%.5g, %.5g, %.5g] m passes %.3g of its air through one face in a step",
+            e.what(), s.time, worst.x[0], worst.x[1], worst.x[2], worst.part);
   }
   s.effort.scalar_steps += s.steps_since_scalars;
   s.steps_since_scalars = 0;

@@ -4,13 +4,15 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace puffin::micromodels::derivation {
 namespace {
 
 void check_points(std::span<const Point> points) {
-  if (points.size() < 5) throw std::invalid_argument("a fit needs at least 5 points");
+  if (points.size() < 5)
+    throw std::invalid_argument("a fit needs at least 5 points; there are " + std::to_string(points.size()));
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Point& p = points[i];
     if (!(p.speed > 0.0) || !std::isfinite(p.speed) || (i > 0 && !(p.speed > points[i - 1].speed)))

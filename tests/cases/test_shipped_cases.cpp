@@ -45,6 +45,18 @@ TEST(ShippedCases, TheirSurfacesAreClosedAndHaveTheirPatches) {
   }
 }
 
+// `puffin bench scaling` runs a few steps of each: nothing in a scene may ask for more time than that.
+TEST(ShippedCases, TheScenesOfTheScalingBenchMayBeAsShortAsTheBenchWants) {
+  int scenes = 0;
+  for (const auto& entry :
+       std::filesystem::directory_iterator(std::filesystem::path(PUFFIN_SOURCE_DIR) / "cases/bench/scaling")) {
+    SCOPED_TRACE(entry.path().string());
+    EXPECT_NO_THROW(read_case(entry.path(), std::vector{parse_override("stop.time=0.0001")}));
+    ++scenes;
+  }
+  EXPECT_EQ(scenes, 3);
+}
+
 TEST(ShippedCases, ThePresetFastTakesLargerCellsAndLongerSteps) {
   const std::string base =
       "base = \"" + (std::filesystem::path(PUFFIN_SOURCE_DIR) / "cases/l-base/case.toml").string() + "\"\n";

@@ -30,7 +30,8 @@ def judge(expected, got, tolerance):
 def main():
     options = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     options.add_argument("--puffin", default="build/release/puffin")
-    options.add_argument("--only", default="", help="scenes whose names have one of these words in them (comma between)")
+    options.add_argument("--only", default="",
+        help="scenes whose names have one of these words in them (comma between)")
     options.add_argument("--work", help="keeps the runs here")
     options.add_argument("--out", help="the table")
     chosen = options.parse_args()

@@ -73,7 +73,7 @@ class Bench:
         self.program, self.folder, self.seconds, self.runs = program, Path(folder), 0.0, 0
 
     def run(self, geometry, air, boundaries, numerics, stop, output, files=None, patches=(), extra=()):
-        """Writes the case and runs it. `geometry`, `air`, `numerics`, `output` are tables; `boundaries` a dict patch -> table."""
+        """Writes the case and runs it. `boundaries`: patch -> table; the others are tables of the case file."""
         self.runs += 1
         work = self.folder / f"run-{self.runs}"
         work.mkdir(parents=True)

@@ -24,6 +24,12 @@ dem::Carrier carrier(std::int64_t id, const Vector3d& position, const Vector3d& 
   return c;
 }
 
+/// Lower corner of the n-th cell of a cube with `side` cells an edge, counted along x first; the cell's edge is 1.
+Vector3d corner_of(std::int64_t n, std::int64_t side) {
+  const std::int64_t column = n / side, layer = column / side;
+  return {static_cast<double>(n % side), static_cast<double>(column % side), static_cast<double>(layer)};
+}
+
 /// Body-centred cubic, the cube's edge 4 R/sqrt(3) shortened by `pressed`: every carrier overlaps with eight.
 void pack(std::int64_t count, double pressed, DemScene& scene) {
   const double edge = 4.0 * radius / std::sqrt(3.0) * (1.0 - pressed);
@@ -33,9 +39,7 @@ void pack(std::int64_t count, double pressed, DemScene& scene) {
   // Above the packing is room: nothing but what is pressed together moves.
   scene.walls = BoxWalls(Vector3d::Constant(static_cast<double>(side) * edge + 4.0 * radius));
   for (std::int64_t n = 0; n < count; ++n) {
-    const std::int64_t cell = n / 2;
-    const Vector3d corner(static_cast<double>(cell % side), static_cast<double>(cell / side % side),
-                          static_cast<double>(cell / (side * side)));
+    const Vector3d corner = corner_of(n / 2, side);
     const Vector3d at = Vector3d::Constant(2.0 * radius) + edge * (corner + Vector3d::Constant(n % 2 ? 0.5 : 0.0));
     const Vector3d speed(uniform(), uniform(), uniform());
     scene.carriers.push_back(carrier(n, at, 1e-3 * speed));
@@ -50,8 +54,7 @@ void scatter(std::int64_t count, double solid_fraction, double speed, DemScene& 
   std::mt19937_64 random(2);
   const auto uniform = [&] { return static_cast<double>(random() >> 11) * 0x1.0p-52 - 1.0; };
   for (std::int64_t n = 0; n < count; ++n) {
-    const Vector3d cell(static_cast<double>(n % side), static_cast<double>(n / side % side),
-                        static_cast<double>(n / (side * side)));
+    const Vector3d cell = corner_of(n, side);
     const Vector3d shake(uniform(), uniform(), uniform()), way(uniform(), uniform(), uniform());
     scene.carriers.push_back(carrier(
         n, pitch * (cell + Vector3d::Constant(0.5)) + (0.5 * pitch - 1.01 * radius) * shake, speed * way.normalized()));

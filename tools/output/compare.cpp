@@ -41,7 +41,10 @@ void collect(const Json& json, const std::string& name, Numbers& numbers) {
   if (json.is_object())
     for (const auto& [key, item] : json.items()) collect(item, name.empty() ? key : name + "." + key, numbers);
   if (json.is_array())
-    for (std::size_t n = 0; n < json.size(); ++n) collect(json[n], name + "." + std::to_string(n), numbers);
+    for (std::size_t n = 0; n < json.size(); ++n) {
+      const bool named = json[n].is_object() && json[n].contains("name") && json[n]["name"].is_string();
+      collect(json[n], name + "." + (named ? json[n]["name"].get<std::string>() : std::to_string(n)), numbers);
+    }
 }
 
 const double* find(const Numbers& numbers, const std::string& name) {
@@ -95,6 +98,35 @@ void compare_histories(const CsvTable& a, const CsvTable& b, const Tolerances& t
   }
 }
 
+/// How each run ended, if differently: a number that is equal by chance proves nothing then.
+void compare_states(const ComparedRun& a, const ComparedRun& b, std::vector<Difference>& differences) {
+  if (a.state == b.state) return;
+  Difference d;
+  d.name = "state";
+  d.said_a = a.state, d.said_b = b.state;
+  d.difference = std::numeric_limits<double>::infinity();
+  differences.push_back(d);
+}
+
+ComparedRun described(const std::filesystem::path& folder, const Json& summary) {
+  ComparedRun run;
+  run.folder = folder.string();
+  const JsonReader read{summary};
+  read("name", run.name);
+  read("state", run.state);
+  read("simulated_time", run.time);
+  return run;
+}
+
+/// The only set of fines of each run stands beside that of the other: B's takes the name of A's.
+void pair_fines(const Json& a, Json& b, std::vector<std::string>& notes) {
+  if (!a.contains("fines") || !b.contains("fines") || a["fines"].size() != 1 || b["fines"].size() != 1) return;
+  const std::string ours = a["fines"].begin().key(), theirs = b["fines"].begin().key();
+  if (ours == theirs) return;
+  b["fines"] = Json{{ours, Json(b["fines"][theirs])}};
+  notes.push_back("fines: \"" + ours + "\" of A beside \"" + theirs + "\" of B");
+}
+
 std::string cell(const std::optional<double>& value) {
   if (!value) return "-";
   char text[32];
@@ -102,14 +134,36 @@ std::string cell(const std::optional<double>& value) {
   return text;
 }
 
+/// Names in the tolerances that fit no number of either run: most likely misspelt, and so without effect.
+std::vector<std::string> unused_names(const Tolerances& tolerances, const Numbers& left, const Numbers& right,
+                                      const std::vector<std::string>& columns) {
+  const auto fits = [&](const std::string& pattern) {
+    const auto hit = [&](const auto& number) { return covers(pattern, number.first); };
+    return std::any_of(left.begin(), left.end(), hit) || std::any_of(right.begin(), right.end(), hit) ||
+           std::any_of(columns.begin(), columns.end(),
+                       [&](const std::string& column) { return covers(pattern, "history." + column); });
+  };
+  std::vector<std::string> unused;
+  for (const auto& [pattern, tolerance] : tolerances.named)
+    if (!fits(pattern)) unused.push_back(pattern);
+  for (const std::string& pattern : tolerances.ignored)
+    if (!fits(pattern)) unused.push_back(pattern);
+  return unused;
+}
+
 }  // namespace
 
-std::vector<Difference> compare_runs(const std::filesystem::path& a, const std::filesystem::path& b,
-                                     const Tolerances& tolerances) {
+Comparison compare_runs(const std::filesystem::path& a, const std::filesystem::path& b, const Tolerances& tolerances) {
+  const Json ours = read_json(a / "summary.json");
+  Json theirs = read_json(b / "summary.json");
+  Comparison result;
+  result.a = described(a, ours), result.b = described(b, theirs);
+  pair_fines(ours, theirs, result.notes);
   Numbers left, right;
-  collect(read_json(a / "summary.json"), "", left);
-  collect(read_json(b / "summary.json"), "", right);
-  std::vector<Difference> differences;
+  collect(ours, "", left);
+  collect(theirs, "", right);
+  std::vector<Difference>& differences = result.differences;
+  compare_states(result.a, result.b, differences);
   for (const auto& [name, value] : left) {
     if (is_ignored(name, tolerances)) continue;
     const double* other = find(right, name);
@@ -119,12 +173,23 @@ std::vector<Difference> compare_runs(const std::filesystem::path& a, const std::
   for (const auto& [name, value] : right)
     if (!is_ignored(name, tolerances) && find(left, name) == nullptr)
       differences.push_back(judged(name, nullptr, &value, std::abs(value), tolerances));
-  compare_histories(read_csv(a / "history.csv"), read_csv(b / "history.csv"), tolerances, differences);
-  return differences;
+  const CsvTable history = read_csv(a / "history.csv"), other = read_csv(b / "history.csv");
+  compare_histories(history, other, tolerances, differences);
+  const double shorter = std::min(result.a.time, result.b.time), longer = std::max(result.a.time, result.b.time);
+  if (shorter < 0.999 * longer)
+    result.notes.push_back("histories: compared up to " + cell(shorter) + " s, where " +
+                           (result.a.time < result.b.time ? "A" : "B") + " ends; the other goes on to " + cell(longer) +
+                           " s");
+  result.unused = unused_names(tolerances, left, right, history.columns);
+  return result;
 }
 
-std::string comparison_text(const std::vector<Difference>& differences) {
-  std::string text;
+std::string comparison_text(const Comparison& comparison) {
+  const std::vector<Difference>& differences = comparison.differences;
+  std::string text, head;
+  for (const auto& [letter, run] : {std::pair("A", &comparison.a), std::pair("B", &comparison.b)})
+    head += std::string(letter) + "  " + run->folder + ": " + run->name + ", " + run->state + " at " + cell(run->time) +
+            " s\n";
   std::size_t outside = 0, width = 8;
   for (const Difference& d : differences)
     if (d.difference != 0.0) width = std::max(width, d.name.size());
@@ -141,29 +206,38 @@ std::string comparison_text(const std::vector<Difference>& differences) {
     if (text.empty()) row("quantity", "A", "B", "difference", "allowed", "");
     std::string note = d.within() ? "" : "OUTSIDE";
     if (d.time) note += (note.empty() ? "at " : " at ") + cell(d.time) + " s";
-    row(d.name, cell(d.a), cell(d.b), cell(d.difference), cell(d.allowed), note);
+    if (!d.said_a.empty())
+      row(d.name, d.said_a, d.said_b, "", "", note);
+    else
+      row(d.name, cell(d.a), cell(d.b), cell(d.difference), cell(d.allowed), note);
   }
-  return text + std::to_string(differences.size()) + " numbers compared, " + std::to_string(outside) +
+  for (const std::string& note : comparison.notes) text += note + "\n";
+  return head + text + std::to_string(differences.size()) + " numbers compared, " + std::to_string(outside) +
          " outside their tolerance";
 }
 
-std::string comparison_json(const std::vector<Difference>& differences) {
+std::string comparison_json(const Comparison& comparison) {
+  const std::vector<Difference>& differences = comparison.differences;
   Json json = Json::object();
   const auto outside =
       std::count_if(differences.begin(), differences.end(), [](const Difference& d) { return !d.within(); });
   json["ok"] = outside == 0;
   json["compared"] = differences.size();
   json["outside"] = outside;
+  for (const auto& [letter, run] : {std::pair("a", &comparison.a), std::pair("b", &comparison.b)})
+    json[letter] = {
+        {"folder", run->folder}, {"name", run->name}, {"state", run->state}, {"simulated_time", number(run->time)}};
+  json["notes"] = comparison.notes;
   json["rows"] = Json::array();
   for (const Difference& d : differences)
     json["rows"].push_back({{"name", d.name},
-                            {"a", number(d.a)},
-                            {"b", number(d.b)},
+                            {"a", d.said_a.empty() ? number(d.a) : Json(d.said_a)},
+                            {"b", d.said_b.empty() ? number(d.b) : Json(d.said_b)},
                             {"time", number(d.time)},
                             {"difference", number(d.difference)},
                             {"allowed", number(d.allowed)},
                             {"within", d.within()}});
-  return json.dump(2);
+  return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace puffin::output

@@ -81,11 +81,15 @@ void point_latest(const fs::path& folder) {
 /// True if the folder holds a run to go on with.
 bool refuse_or_clear(const fs::path& folder, bool resume) {
   const std::string where = folder.string();
-  if (fs::exists(folder / "summary.json") && read_summary(folder / "summary.json").state == "finished") {
-    throw OutputError(where + " holds a finished run, which is never overwritten; choose another folder with --out");
-  }
   const bool from_a_run = fs::exists(folder / "status.json");
   const bool has_checkpoints = from_a_run && !list_checkpoints(folder).empty();
+  if (fs::exists(folder / "summary.json")) {
+    const Summary summary = read_summary(folder / "summary.json");
+    const bool goes_on = summary.until.has_value() && has_checkpoints;  // ended by --until, before its stop time
+    if (summary.state == "finished" && !(resume && goes_on))
+      throw OutputError(where + " holds a finished run, which is never overwritten; choose another folder with --out" +
+                        (goes_on ? ", or go on beyond its --until with --resume" : ""));
+  }
   if (resume && has_checkpoints) return true;
   if (resume && !from_a_run) throw OutputError(where + " holds no run to resume; start it without --resume");
   if (has_checkpoints) {

@@ -88,6 +88,7 @@ struct Summary {
   std::string version;
   std::string state;                  // finished | diverged | stopped
   std::string message;                // why it stopped, or where it diverged: step, cell or carrier, value, limit
+  std::optional<double> until;        // finished because --until asked for no more [s]: --resume goes on
   std::vector<std::string> warnings;  // retreats from failures with a smaller time step
   double simulated_time = 0.0;        // [s]
   double wall_clock = 0.0;            // [s]

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include "cases/presets.hpp"
+#include "cases/spelling.hpp"
 #include "tools/output/output_folder.hpp"
 #include "tools/output/report.hpp"
 #include "tools/output/study_results.hpp"
@@ -14,10 +15,22 @@
 namespace puffin::tools {
 namespace {
 
+/// A pattern that fits no case is most likely misspelt.
+void require_a_name(const cases::Study& study, const Jobs& plan, const std::string& pattern) {
+  for (const Job& job : plan.jobs)
+    if (is_named(study, job, pattern)) return;
+  std::vector<std::string> names;
+  for (const cases::StudyCase& c : study.cases) names.push_back(c.name);
+  throw UsageError("--only " + pattern + ": no case of the study has such a name; there are " + cases::join(names));
+}
+
 int batch(const BatchOptions& options) {
   set_up_log(options.quiet);
   const cases::Study study = cases::read_study(options.study);
   const Jobs plan = plan_jobs(study, options.preset);
+  require_a_name(study, plan, options.only);
+  if (!options.quiet)
+    for (const Sharing& s : plan.sharings) log_info("share " + s.name + (s.done ? ": " : ", not done: ") + s.what);
   Book book(options.out.empty() ? std::filesystem::path("studies") / output::folder_name(options.study.stem().string())
                                 : options.out,
             study, plan);

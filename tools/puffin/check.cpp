@@ -8,6 +8,7 @@
 #include "cases/check_boundaries.hpp"
 #include "cases/check_places.hpp"
 #include "cases/check_tables.hpp"
+#include "cases/fill.hpp"
 #include "cases/micromodel_file.hpp"
 #include "cases/search_path.hpp"
 #include "cases/stability_envelope.hpp"
@@ -17,17 +18,25 @@
 #include "tools/puffin/commands.hpp"
 #include "tools/puffin/console.hpp"
 #include "tools/puffin/exit_codes.hpp"
+#include "tools/puffin/stored_field.hpp"
 
 namespace puffin::tools {
 namespace {
 
-/// Places outside the geometry are problems; what starts deep in a wall is a warning.
-void check_places(const cases::Case& c, const cases::Surface& surface, cases::Assessment& assessment) {
+/// Places outside the geometry are problems, a dose that does not fit is one; what starts deep in a wall is a warning.
+void check_places(const cases::Case& c, const std::string& file, const cases::Surface& surface,
+                  cases::Assessment& assessment) {
   const bool lists = c.carriers && !c.carriers->list.empty();
   const bool places = !c.output.probes.empty() || !c.output.planes.empty() || !c.output.fields.empty();
-  if (!lists && !places) return;
+  const bool fills = c.carriers && c.carriers->fill;
+  if (!lists && !places && !fills) return;
   const lbm::geometry::TriangleTree tree(surface.mesh);
   auto problems = cases::carrier_place_problems(c, tree);
+  if (fills) try {
+      cases::dose_of(c, surface, tree);
+    } catch (const std::invalid_argument& e) {
+      problems.push_back({file, 0, 0, "", e.what()});
+    }
   if (assessment.lattice)
     for (auto& p : cases::output_place_problems(c, tree, assessment.lattice->dx)) problems.push_back(std::move(p));
   if (!problems.empty()) throw cases::CaseError(std::move(problems));
@@ -50,8 +59,10 @@ int check_case(const CaseArguments& a) {
   if (auto problems = cases::boundary_problems(c, surface); !problems.empty())
     throw cases::CaseError(std::move(problems));
   if (auto problems = cases::table_problems(c); !problems.empty()) throw cases::CaseError(std::move(problems));
+  if (const auto* run = std::get_if<cases::RunField>(&c.air.frozen); run && c.air.model == cases::AirModel::frozen)
+    cases::from_file(c, "air.field", [&] { return read_stored_field(*run); });
   cases::Assessment assessment = cases::assess(c, surface);
-  check_places(c, surface, assessment);
+  check_places(c, a.file.string(), surface, assessment);
   check_stability(c, assessment);
   for (const lbm::geometry::Defect& d : surface.defects) assessment.warnings.push_back(d.kind + ": " + d.message);
   const std::vector<std::string> assumed = cases::assumptions(c);

@@ -34,7 +34,8 @@ struct CompareOptions {
 output::Tolerance tolerance_of(const std::string& file, const std::string& key, const toml::node& node) {
   output::Tolerance tolerance;
   const toml::table* table = node.as_table();
-  if (table == nullptr) refuse(file, node, key, "give { absolute = ..., relative = ... }");
+  if (table == nullptr)
+    refuse(file, node, key, "'" + key + "': give { absolute = 0.01, relative = 0 }, or one of the two");
   for (const auto& [name, value] : *table) {
     const std::string word(name.str());
     if (word != "absolute" && word != "relative")
@@ -67,7 +68,10 @@ output::Tolerances read_tolerances(const std::filesystem::path& path) {
           tolerances.named[std::string(quantity.str())] = tolerance;
       }
     } else {
-      refuse(file, node, key, "a file of tolerances has [tolerance] and ignore = [...]");
+      refuse(file, node, key,
+             "'" + key +
+                 "': a file of tolerances has a table [tolerance], with rows like \"fines.drug.FFE\" = { absolute = "
+                 "0.01, relative = 0 } or default = { relative = 1e-6 }, and ignore = [\"name\"]");
     }
   }
   return tolerances;
@@ -76,9 +80,11 @@ output::Tolerances read_tolerances(const std::filesystem::path& path) {
 int compare_command(const CompareOptions& options) {
   const output::Tolerances tolerances =
       options.tolerances.empty() ? output::Tolerances() : read_tolerances(options.tolerances);
-  const auto differences = output::compare_runs(options.a, options.b, tolerances);
-  print(options.json ? output::comparison_json(differences) : output::comparison_text(differences));
-  for (const auto& d : differences)
+  const output::Comparison comparison = output::compare_runs(options.a, options.b, tolerances);
+  for (const std::string& name : comparison.unused)
+    log_warning(options.tolerances.string() + ": '" + name + "' is no number of these runs; --json lists the names");
+  print(options.json ? output::comparison_json(comparison) : output::comparison_text(comparison));
+  for (const auto& d : comparison.differences)
     if (!d.within()) return out_of_tolerance;
   return ok;
 }

@@ -1,6 +1,7 @@
 // puffin estimate: memory, steps and wall-clock on this machine.
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "tools/puffin/arguments.hpp"
@@ -24,11 +25,15 @@ int estimate(const CaseArguments& a) {
                         " are free: raise numerics.dx");
   const Rehearsal rehearsal = rehearse(c, rehearsed_seconds);
   assessment.memory = rehearsal.memory;
-  const double steps = assessment.lattice ? assessment.lattice->steps : 0.0;
+  const double steps = assessment.lattice   ? assessment.lattice->steps
+                       : rehearsal.time > 0 ? static_cast<double>(rehearsal.steps) * c.stop.time / rehearsal.time
+                                            : 0.0;
   const Forecast f = forecast(c, rehearsal, steps);
   const double mlups = rehearsal.air > 0.0 ? 1e-6 * static_cast<double>(assessment.cells_fluid) / rehearsal.air : 0.0;
   if (a.json) {
     nlohmann::json j = assessment_json(c, assessment);
+    j["steps"] = std::llround(steps);
+    j["cells_active"] = rehearsal.active;
     j["seconds"] = f.seconds;
     j["seconds_low"] = f.low;
     j["seconds_high"] = f.high;
@@ -39,13 +44,10 @@ int estimate(const CaseArguments& a) {
     return ok;
   }
   print_assessment(c, assessment);
-  print("speed      " + four_digits(mlups) + " million fluid cells a second on " + std::to_string(rehearsal.threads) +
-        " threads (air and walls, rehearsed now: " + std::to_string(rehearsal.steps) + " steps)");
-  if (assessment.lattice)
-    print("time       about " + as_time(f.seconds) + " to stop.time (" + as_time(f.low) + " to " + as_time(f.high) +
-          ")");
-  else
-    print("time       without a lattice there is no estimate");
+  if (mlups > 0.0)
+    print("speed      " + four_digits(mlups) + " million fluid cells a second on " + std::to_string(rehearsal.threads) +
+          " threads (air and walls, rehearsed now: " + std::to_string(rehearsal.steps) + " steps)");
+  print("time       about " + as_time(f.seconds) + " to stop.time (" + as_time(f.low) + " to " + as_time(f.high) + ")");
   return ok;
 }
 

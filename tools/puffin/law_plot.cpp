@@ -35,8 +35,9 @@ std::vector<output::Curve> law_curves(const micromodels::FinesModels& models, do
   for (const auto& [name, law] : named(models)) {
     if (!*law || law == &models.drag_detach) continue;
     output::Curve curve{name, {}, {}};
+    const double end = std::min(fastest, micromodels::valid(**law).high);  // beyond it the law says nothing
     for (int n = 0; n <= 280; ++n) {
-      curve.x.push_back(fastest * n / 280);
+      curve.x.push_back(end * n / 280);
       curve.y.push_back(micromodels::fraction(**law, curve.x.back()));
     }
     curves.push_back(std::move(curve));

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "cases/units.hpp"
@@ -44,6 +45,15 @@ struct DeriveArguments {
 double yield_pressure(const std::string& text, const char* option) {
   return text == "none" ? std::numeric_limits<double>::infinity()
                         : positive_quantity(text, cases::unit::pressure, option);
+}
+
+/// Both laws have five constants, and their points stand in the order of the speeds.
+void check_speeds(const std::vector<double>& speeds) {
+  if (speeds.empty()) return;
+  if (speeds.size() < 5 || !std::is_sorted(speeds.begin(), speeds.end(), std::less_equal<>()))
+    throw UsageError(
+        "--speeds: the fitted law has five constants: give at least 5 speeds that rise, or none for the "
+        "default ones around the threshold");
 }
 
 Scene scene_of(const DeriveArguments& a, Partner target) {
@@ -243,6 +253,7 @@ json fit_json(const PowerFit& fit) {
 }
 
 int derive_set(const DeriveArguments& a) {
+  check_speeds(a.speeds);
   std::optional<tbb::global_control> limit;
   if (a.threads > 0) limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(a.threads));
   micromodels::FinesModels models;

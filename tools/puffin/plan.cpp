@@ -30,6 +30,35 @@ std::string air_of(const cases::Case& c) {
          std::string(cases::name_of(c.numerics.les));
 }
 
+/// What a run leaves out without changing its answer, by the names that summary.json gives it, and what the case says
+/// to compute all the same.
+void add_skipped_work(const cases::Case& c, std::vector<Part>& parts) {
+  const bool lattice = c.air.model == cases::AirModel::lbm;
+  const auto unless = [&](const char* key, bool skip, const char* name, const char* why) {
+    parts.push_back({name, !skip, skip ? std::string(why) : std::string("numerics.skip.") + key + " is false"});
+  };
+  if (lattice) {
+    parts.push_back({"solid cells of the bounding box", false, "only cells that hold air are stored"});
+    if (c.numerics.time_step == cases::TimeStepRule::follow_ramp)
+      parts.push_back({"air steps by following the ramp", false,
+                       "while the air is slower than at its fastest, the step is longer (numerics.time_step)"});
+  }
+  if (c.carriers) {
+    unless("sleeping_carriers", c.numerics.skip.sleeping_carriers, "steps of sleeping carriers",
+           "carriers at rest are not moved until something disturbs them");
+    if (lattice)
+      unless("resting_exchange", c.numerics.skip.resting_exchange, "exchanges with the air while every carrier sleeps",
+             "then there are fewer of them");
+  }
+  if (!c.fines || c.fines->scalars.empty() || c.air.model == cases::AirModel::none) return;
+  unless("idle_transport", c.numerics.skip.idle_transport, "transport of fines while next to none are airborne",
+         "nothing is computed before the first release");
+  unless("empty_cells", c.numerics.skip.empty_cells, "transport in cells without fines",
+         "only where fines are and next to it");
+  unless("transport_steps", c.numerics.skip.transport_steps, "transport in every air step",
+         "it takes longer steps of its own");
+}
+
 std::vector<Part> parts_of(const cases::Case& c) {
   std::vector<Part> parts;
   const bool lattice = c.air.model == cases::AirModel::lbm;
@@ -70,7 +99,8 @@ bool is_study(const std::filesystem::path& file);
 int plan(const CaseArguments& a) {
   if (is_study(a.file)) return plan_study(a);
   const cases::Case c = a.read();
-  const std::vector<Part> parts = parts_of(c);
+  std::vector<Part> parts = parts_of(c);
+  add_skipped_work(c, parts);
   if (a.json) {
     json j{{"name", c.name}, {"runs", json::array()}, {"skipped", json::array()}, {"shared", json::array()}};
     for (const Part& p : parts) j[p.runs ? "runs" : "skipped"].push_back({{"name", p.name}, {"why", p.why}});

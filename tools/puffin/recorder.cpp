@@ -1,6 +1,7 @@
 #include "tools/puffin/recorder.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <tuple>
 
@@ -228,19 +229,21 @@ void Recorder::take_events(const cases::Simulation& s) {
 
 void Recorder::record(const cases::Simulation& s) {
   const double t = s.state.time;
-  if (statistics_.due(t)) {
-    record_statistics(s);
-    statistics_.done(t);
-  }
-  if (carriers_.due(t)) {
-    record_carriers(s);
-    carriers_.done(t);
-  }
+  const auto record_if_due = [&](Interval& interval, RepeatedOutput& cost, const auto& write) {
+    if (!interval.due(t)) return;
+    const auto begin = std::chrono::steady_clock::now();
+    write();
+    interval.done(t);
+    cost.interval = interval.interval;
+    ++cost.times;
+    cost.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  };
+  repeated_.resize(2 + fields_.size());
+  record_if_due(statistics_, repeated_[0], [&] { record_statistics(s); });
+  record_if_due(carriers_, repeated_[1], [&] { record_carriers(s); });
+  if (!fields_vtk_) return;
   for (std::size_t k = 0; k < fields_.size(); ++k)
-    if (fields_vtk_ && fields_[k].due(t)) {
-      record_fields(s, k);
-      fields_[k].done(t);
-    }
+    record_if_due(fields_[k], repeated_[2 + k], [&] { record_fields(s, k); });
 }
 
 void Recorder::record_statistics(const cases::Simulation& s) {

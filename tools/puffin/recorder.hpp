@@ -28,6 +28,13 @@ struct Interval {
   }
 };
 
+/// What one kind of output that comes again and again has cost so far.
+struct RepeatedOutput {
+  double interval = 0.0;   // [s] simulated
+  std::int64_t times = 0;  // that it was written
+  double seconds = 0.0;    // that this took, in all
+};
+
 class Recorder {
  public:
   /// resume: go on with the files in the folder from where they were then, and drop what came later. Throws OutputError
@@ -51,6 +58,8 @@ class Recorder {
   void forget_journal();
 
   const std::vector<output::HistoryRow>& history() const { return history_; }
+  /// Statistics, carriers, then each kind of fields.
+  const std::vector<RepeatedOutput>& repeated() const { return repeated_; }
   const DropReader& drops() const { return drops_; }
   const ForceReader& forces() const { return force_reader_; }
 
@@ -78,6 +87,7 @@ class Recorder {
   std::vector<Totals> totals_;  // one a row of the history
   MovedFines moved_;
   std::int64_t begun_ = 0;
+  std::vector<RepeatedOutput> repeated_;
 };
 
 /// Columns of stats.h5: those of history.csv, then the totals of the domain.

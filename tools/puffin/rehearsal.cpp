@@ -8,10 +8,12 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 
 #include "cases/build.hpp"
 #include "tools/output/output_folder.hpp"
+#include "tools/puffin/exit_codes.hpp"
 #include "tools/puffin/stepping.hpp"
 #include "tools/puffin/stored_field.hpp"
 #include "tools/puffin/thread_limit.hpp"
@@ -93,11 +95,16 @@ Rehearsal rehearse(const cases::Case& c, double seconds) {
   fill_air_with_fines(s.state);
   const ScratchFolder scratch;
   const output::OutputFolder folder(scratch.path(), c.name);
-  Stepping stepping(s, folder, true, begin, seconds + seconds_since(begin));
+  Stepping stepping(s, folder, true, begin, seconds + seconds_since(begin), c.stop.time);
   r.set_up = seconds_since(begin);
   const Clock::time_point start = Clock::now();
   stepping.run();
   const double gone = seconds_since(start);
+  const double stepped_output = stepping.output_seconds();
+  // The end of a run takes memory of its own: events.h5, wall maps. Said to be stopped, as nothing is to be warned of.
+  const Clock::time_point last = Clock::now();
+  stepping.finish({"stopped", "", stopped});
+  r.finish = seconds_since(last);
   const auto& e = s.state.effort;
   r.steps = s.state.air ? s.state.air->steps : s.state.carriers.statistics.steps;
   if (r.steps > 0) {
@@ -105,17 +112,21 @@ Rehearsal rehearse(const cases::Case& c, double seconds) {
     r.air = (e.air + e.links) / steps;
     r.carriers = (e.exchange + e.carriers + e.fines) / steps;
     r.transport = e.scalars / steps;
-    r.rest = std::max(0.0, gone - e.air - e.links - e.exchange - e.carriers - e.fines - e.scalars -
-                               stepping.output_seconds()) /
-             steps;
+    r.rest =
+        std::max(0.0, gone - e.air - e.links - e.exchange - e.carriers - e.fines - e.scalars - stepped_output) / steps;
   }
+  for (const RepeatedOutput& kind : stepping.recorder().repeated())
+    if (kind.times > 0)
+      r.outputs += kind.seconds / static_cast<double>(kind.times) * (1.0 + std::floor(c.stop.time / kind.interval));
   r.at_rest = steps_before(s, 1.0 / 3.0, c.stop.time);
+  r.time = s.state.time;
+  if (s.state.air) r.active = static_cast<std::int64_t>(s.state.air->rows.active_cells());
   r.memory = peak_memory();
   return r;
 }
 
 Forecast forecast(const cases::Case& c, const Rehearsal& r, double steps) {
-  const double always = r.set_up + steps * (r.air + r.rest);
+  const double always = r.set_up + r.outputs + r.finish + steps * (r.air + r.rest);
   const double busy = steps * (r.carriers + r.transport);
   Forecast f;
   f.seconds = always + (1.0 - r.at_rest) * busy;

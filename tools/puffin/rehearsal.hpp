@@ -9,25 +9,30 @@ namespace puffin::tools {
 
 /// Cost of the parts of a run, measured [s].
 struct Rehearsal {
-  double set_up = 0.0;     // until the first step
-  double air = 0.0;        // an air step: collision, streaming, walls
-  double carriers = 0.0;   // an air step's share of exchange and motion, carriers awake
-  double transport = 0.0;  // an air step's share of transport, fines everywhere in the air
-  double rest = 0.0;       // an air step's share of everything else but outputs
-  double at_rest = 0.0;    // part of the air steps before the carriers fly: until a third of the largest flow
-  double memory = 0.0;     // peak of this process [byte]
-  std::int64_t steps = 0;  // that were rehearsed
+  double set_up = 0.0;      // until the first step
+  double air = 0.0;         // an air step: collision, streaming, walls
+  double carriers = 0.0;    // an air step's share of exchange and motion, carriers awake
+  double transport = 0.0;   // an air step's share of transport, fines everywhere in the air
+  double rest = 0.0;        // an air step's share of everything else but outputs
+  double outputs = 0.0;     // tables and frames of the whole run, by what those of the rehearsal took
+  double finish = 0.0;      // after the last step: events.h5, wall maps
+  double at_rest = 0.0;     // part of the air steps before the carriers fly: until a third of the largest flow
+  double time = 0.0;        // simulated [s]
+  double memory = 0.0;      // peak of this process [byte]
+  std::int64_t active = 0;  // cells that are computed, those of an immersed boundary's band too
+  std::int64_t steps = 0;   // that were rehearsed
   int threads = 0;
 };
 
-/// Builds the case and runs it for about `seconds` with all its outputs, in a folder of its own that is removed; fines
+/// Builds the case and runs it for about `seconds` with all its outputs, in a folder of its own that is removed, to the
+/// files of its end; fines
 /// are put into the air everywhere, so that their transport is paid for from the start (which a real run does only
 /// after the first release). Carriers of a fresh dose are awake. Throws as `build` and a run do.
 Rehearsal rehearse(const cases::Case& c, double seconds);
 
 /// What the run will take to stop.time [s], and between what: if everything leaves before (stop.when_empty) and the
-/// machine is a quarter faster; with carriers and fines at work from the first step on and a quarter slower. Outputs
-/// besides those of the rehearsal are not counted: they take 1 to 3 % of a run.
+/// machine is a quarter faster; with carriers and fines at work from the first step on and a quarter slower.
+/// Checkpoints are not counted.
 struct Forecast {
   double seconds = 0.0, low = 0.0, high = 0.0;
 };

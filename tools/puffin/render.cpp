@@ -39,6 +39,8 @@ void set_plane(const std::string& text, output::RenderOptions& options) {
 }
 
 int render_command(const RenderArguments& given) {
+  if (given.out.extension() != ".png")
+    throw UsageError("--out " + given.out.string() + ": the picture is a PNG; give a name that ends in .png");
   output::RenderOptions options;
   options.wall_quantity = given.quantity;
   options.aim = {given.azimuth, given.elevation, given.focus};

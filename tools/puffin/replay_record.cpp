@@ -48,6 +48,13 @@ std::optional<ReplayTables> replay_tables(const cases::Simulation& s) {
 
 StoredRun read_stored_run(const std::filesystem::path& folder) {
   const auto file = folder / "events.h5";
+  if (!std::filesystem::exists(file)) {
+    const bool is_run = std::filesystem::exists(folder / "status.json");
+    throw output::OutputError(
+        "cannot read " + file.string() +
+        (is_run ? ": the run has written no contacts; run it to its end, with output.events = true, to replay it"
+                : "; is this the folder of a run?"));
+  }
   const ReplayTables tables = output::read_replay_tables(file);
   std::vector<output::EventRecord> events = output::read_events(file);
   std::sort(events.begin(), events.end(), [](const auto& x, const auto& y) { return x.order < y.order; });

@@ -38,19 +38,19 @@ void make_pictures_and_report(const std::filesystem::path& run, bool quiet) {
 }
 
 /// What the parts find wrong with their numbers is a mistake of the case.
-std::unique_ptr<cases::Simulation> built(const cases::Case& c, const std::filesystem::path& file) try {
-  return cases::build(c, read_stored_field, available_memory());
+std::unique_ptr<cases::Simulation> built(const cases::Case& c, const RunOptions& options) try {
+  return cases::build(c, read_stored_field, available_memory(), options.beds);
 } catch (const std::invalid_argument& e) {
-  throw cases::CaseError({{file.string(), 0, 0, "", e.what()}});
+  throw cases::CaseError({{options.case_file.string(), 0, 0, "", e.what()}});
 }
 
 /// The run on the threads of the arena that it is called in.
 int run_here(const RunOptions& options, cases::Case c, int threads, std::chrono::steady_clock::time_point start) {
   const auto seconds = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
-  const auto simulation = built(c, options.case_file);
+  const auto simulation = built(c, options);
   cases::Simulation& s = *simulation;
   // Only now: the reference speed, and with it the time step, belong to the whole run that the case describes.
-  c.stop.time = s.description.stop.time = std::min(c.stop.time, options.until);
+  c.stop.time = std::min(c.stop.time, options.until);
   for (const std::string& text : PointReader(s).check_places(s)) log_warning(text);
   for (const std::string& text : cases::carrier_place_warnings(s.description, *s.tree)) log_warning(text);
   for (const std::string& text : s.warnings) log_warning(text);
@@ -65,15 +65,17 @@ int run_here(const RunOptions& options, cases::Case c, int threads, std::chrono:
     log_info(c.name + ": " + std::to_string(s.state.air->rows.active_cells()) + " cells of " + as_length(s.dx) + ", " +
              std::to_string(threads) + " threads, " + lbm::name(lbm::detect_isa()) + "; output in " +
              folder.path().string());
+  if (s.bed_was_kept) log_info("the dose lies as an earlier run with the same one has left it in " + s.beds.string());
   RunFacts facts;
   facts.threads = threads;
   facts.set_up = seconds();
 
-  Stepping stepping(s, folder, options.quiet, start, options.walltime);
+  Stepping stepping(s, folder, options.quiet, start, options.walltime, options.until);
   const Ending ending = stepping.run();
   stepping.finish(ending);
   facts.state = ending.state;
   facts.message = ending.message;
+  if (ending.goes_on) facts.until = options.until;
   facts.warnings = stepping.memory().warnings;
   facts.output = stepping.output_seconds();
   facts.wall_clock = stepping.memory().wall_clock + seconds();
@@ -82,6 +84,8 @@ int run_here(const RunOptions& options, cases::Case c, int threads, std::chrono:
   if (options.report && ending.code != stopped && ending.code != interrupted)
     make_pictures_and_report(folder.path(), options.quiet);
   if (ending.code == diverged) log_error(ending.message);
+  if (ending.goes_on)
+    log_info("ended at --until " + as_time(options.until) + "; --resume goes on to the stop time of the case");
   if (ending.code == stopped || ending.code == interrupted)
     log_info(ending.message + " at t = " + as_time(s.state.time) + "; --resume goes on from here");
   output::Status last = output::read_status(folder.file("status.json"));

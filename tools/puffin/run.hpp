@@ -19,6 +19,7 @@ struct RunOptions {
   double until = std::numeric_limits<double>::infinity();  // [s] simulated
   bool resume = false;
   double walltime = std::numeric_limits<double>::infinity();  // [s]
+  std::filesystem::path beds;  // settled beds are kept there and taken from there; empty: nowhere
   bool quiet = false;
   bool json = false;   // one JSON object on stdout, nothing else there
   bool report = true;  // report.html at the end

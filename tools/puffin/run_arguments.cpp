@@ -42,6 +42,9 @@ Command run() {
             app.add_option("--until", a->until, "stop at this simulated time, like 80ms")->type_name("TIME");
             app.add_flag("--resume", a->options.resume, "go on from the newest checkpoint in --out");
             app.add_option("--walltime", a->walltime, "stop cleanly (exit code 75) after this time")->type_name("TIME");
+            app.add_option("--beds", a->options.beds,
+                           "settled beds are kept here, and taken from here by runs with the same dose")
+                ->type_name("DIR");
             app.add_flag("!--no-report", a->options.report, "no pictures and no report.html at the end");
             app.add_flag("--quiet", a->options.quiet, "no progress, warnings only");
             return [a] { return puffin::tools::run(*a); };

@@ -1,5 +1,6 @@
 #include "tools/puffin/stepping.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <csignal>
 
@@ -49,8 +50,15 @@ static void fields(auto& archive, coupling::Is<RunMemory> auto& memory) {
 }
 
 Stepping::Stepping(cases::Simulation& s, const output::OutputFolder& folder, bool quiet, Clock::time_point start,
-                   double walltime)
-    : s_(s), folder_(folder), start_(start), walltime_(walltime), health_(s.models, s.state), store_(s, folder) {
+                   double walltime, double until)
+    : s_(s),
+      folder_(folder),
+      start_(start),
+      walltime_(walltime),
+      shortened_(until < s.description.stop.time),
+      health_(s.models, s.state),
+      store_(s, folder) {
+  s.description.stop.time = std::min(s.description.stop.time, until);
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow: its writer says so
   if (folder.resumed()) {
     coupling::save(s.state, good_);  // its size, before anything moved, bounds what a checkpoint can be
@@ -127,6 +135,7 @@ bool Stepping::retreat(const std::string& why) {
                 "retreat %d of %d from t = %.6g s to %.6g s with 1/%d of the time step: ", memory_.retreats,
                 most_retreats, failed_at, s_.state.time, 1 << memory_.retreats);
   memory_.warnings.push_back(text + why);
+  progress_->finish();  // the line on the terminal ends
   log_warning(memory_.warnings.back());
   const RecorderState outputs = restored(good_.at("outputs"));
   recorder_.reset();  // its files are closed before they are cut
@@ -141,6 +150,8 @@ Ending Stepping::run() {
       recorder_->record(s_);
       while (!finished(s_)) {
         step();
+        // The step that --until cut short is none of the whole run: what goes on begins before it.
+        if (shortened_ && at_stop_time(s_)) break;
         look_after();
         if (received_signal == 0 && wall_clock() <= walltime_) continue;
         health_.check(s_.models, s_.state);
@@ -153,7 +164,10 @@ Ending Stepping::run() {
                 received_signal == SIGINT ? interrupted : stopped};
       }
       health_.check(s_.models, s_.state);
-      return {};
+      Ending ending;
+      ending.goes_on = shortened_ && is_over();
+      if (ending.goes_on) write_checkpoint(good_);
+      return ending;
     } catch (const coupling::Diverged& e) {
       if (retreat(e.what())) continue;
       write_checkpoint(good_);
@@ -162,15 +176,14 @@ Ending Stepping::run() {
 }
 
 void Stepping::finish(const Ending& ending) {
+  const std::size_t told = memory_.warnings.size();
   if (ending.code == ok)
-    for (const std::string& text : lattice_warnings(s_)) {
-      memory_.warnings.push_back(text);
-      log_warning(text);
-    }
+    for (const std::string& text : lattice_warnings(s_)) memory_.warnings.push_back(text);
   recorder_->finish(s_);
   progress_->update(*recorder_, memory_.warnings, true);
   progress_->finish();
-  if (ending.code == ok) recorder_->forget_journal();
+  for (std::size_t n = told; n < memory_.warnings.size(); ++n) log_warning(memory_.warnings[n]);
+  if (ending.code == ok && !ending.goes_on) recorder_->forget_journal();
   output::Status last = output::read_status(folder_.file("status.json"));
   last.state = ending.state;
   output::write_status(folder_.file("status.json"), last);

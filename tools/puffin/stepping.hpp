@@ -25,14 +25,15 @@ struct RunMemory {
 struct Ending {
   std::string state = "finished", message;  // as in summary.json
   int code = 0;
+  bool goes_on = false;  // finished at --until, before the stop time of the case: there is a checkpoint
 };
 
 class Stepping {
  public:
   /// resume: go on from the newest checkpoint of the folder. `start`: of the program, from which `walltime` [s] counts.
-  /// Throws as CheckpointStore and Recorder.
+  /// `until`: the run ends there [s] if its stop time is later. Throws as CheckpointStore and Recorder.
   Stepping(cases::Simulation& s, const output::OutputFolder& folder, bool quiet,
-           std::chrono::steady_clock::time_point start, double walltime);
+           std::chrono::steady_clock::time_point start, double walltime, double until);
 
   /// Steps until the end, a signal, the wall time or a failure. After a failure the last good state is restored and the
   /// time step halved, at most three times; every hundred steps the health of the state is asked for, and every five
@@ -58,6 +59,7 @@ class Stepping {
   const output::OutputFolder& folder_;
   std::chrono::steady_clock::time_point start_;
   double walltime_;
+  bool shortened_;  // --until comes before the stop time of the case
   coupling::Health health_;
   CheckpointStore store_;
   RunMemory memory_;

@@ -136,8 +136,9 @@ std::vector<output::SkippedWork> skipped(const cases::Simulation& s) {
     const auto rows = s.state.air->rows.box();
     const double box = static_cast<double>(rows[0]) * rows[1] * rows[2];
     const double active = static_cast<double>(s.state.air->rows.active_cells());
-    list.push_back({"solid cells of the bounding box", std::llround(box - active),
-                    (box - active) / active * steps * seconds_per_step});
+    if (box > active)
+      list.push_back({"solid cells of the bounding box", std::llround(box - active),
+                      (box - active) / active * steps * seconds_per_step});
   }
   if (e.exchanges_saved > 0)
     list.push_back(
@@ -206,6 +207,7 @@ output::Summary summarize(const cases::Simulation& s, const Recorder& recorder, 
   r.version = build_info().version + " (" + build_info().commit + ")";
   r.state = facts.state;
   r.message = facts.message;
+  r.until = facts.until;
   r.warnings = facts.warnings;
   r.simulated_time = s.state.time;
   r.wall_clock = facts.wall_clock;

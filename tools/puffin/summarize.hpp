@@ -2,6 +2,7 @@
 // summary.json from a simulation and its history.
 
 #include <array>
+#include <optional>
 #include <string>
 
 #include "tools/output/summary.hpp"
@@ -13,6 +14,7 @@ namespace puffin::tools {
 struct RunFacts {
   std::string state;  // finished | diverged | stopped
   std::string message;
+  std::optional<double> until;  // the run ended there [s] though its case goes on
   std::vector<std::string> warnings;
   double wall_clock = 0.0;            // [s]
   double set_up = 0.0, output = 0.0;  // [s]

@@ -10,6 +10,7 @@
 #include <chrono>
 #include <csignal>
 #include <fstream>
+#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <thread>
@@ -56,8 +57,9 @@ struct Population {
 
 class Company {
  public:
-  Company(const std::vector<TogetherCase>& list, std::string_view preset, int threads, bool quiet)
-      : start_(Clock::now()), threads_(threads), quiet_(quiet) {
+  Company(const std::vector<TogetherCase>& list, std::string_view preset, int threads, bool quiet,
+          const std::filesystem::path& beds)
+      : start_(Clock::now()), beds_(beds), threads_(threads), quiet_(quiet) {
     std::vector<cases::Case> cases;
     for (const TogetherCase& one : list) {
       cases.push_back(cases::read_case(one.case_file, one.sets, preset));
@@ -99,7 +101,7 @@ class Company {
   void add(const cases::Case& c, const std::filesystem::path& out) {
     const Clock::time_point begin = Clock::now();
     Population p;
-    p.simulation = cases::build(c, read_stored_field);
+    p.simulation = cases::build(c, read_stored_field, std::numeric_limits<double>::infinity(), beds_);
     p.folder = std::make_unique<output::OutputFolder>(out, c.name);
     announce(*p.folder, c);
     p.folder->write_text("case.toml", cases::write_resolved(c));
@@ -186,6 +188,7 @@ class Company {
   }
 
   Clock::time_point start_;
+  std::filesystem::path beds_;
   int threads_;
   bool quiet_, diverged_ = false;
   std::vector<Population> all_;
@@ -231,7 +234,8 @@ std::vector<TogetherCase> read_together(const std::filesystem::path& file) {
   return list;
 }
 
-int run_together(const std::vector<TogetherCase>& list, std::string_view preset, int threads, bool quiet) {
+int run_together(const std::vector<TogetherCase>& list, std::string_view preset, int threads, bool quiet,
+                 const std::filesystem::path& beds) {
   _mm_setcsr(_mm_getcsr() | 0x8040);  // flush denormals: air at rest would otherwise compute with them
   set_up_log(quiet);
   if (threads <= 0) threads = static_cast<int>(std::thread::hardware_concurrency());
@@ -240,7 +244,7 @@ int run_together(const std::vector<TogetherCase>& list, std::string_view preset,
   received = 0;
   const auto previous_term = std::signal(SIGTERM, [](int n) { received = n; });
   const auto previous_int = std::signal(SIGINT, [](int n) { received = n; });
-  const int code = Company(list, preset, threads, quiet).run();
+  const int code = Company(list, preset, threads, quiet, beds).run();
   std::signal(SIGTERM, previous_term);
   std::signal(SIGINT, previous_int);
   return code;
@@ -255,6 +259,7 @@ Command together() {
               std::string preset;
               int threads = 0;
               bool quiet = false;
+              std::filesystem::path beds;
             };
             auto g = std::make_shared<Given>();
             app.add_option("list", g->list, "the list of cases, as puffin batch writes it")
@@ -262,8 +267,9 @@ Command together() {
                 ->type_name("LIST.json");
             app.add_option("--preset", g->preset, "for every case")->type_name("NAME");
             app.add_option("--threads", g->threads, "0: all")->check(CLI::Range(0, 4096));
+            app.add_option("--beds", g->beds, "where settled beds are kept")->type_name("DIR");
             app.add_flag("--quiet", g->quiet, "warnings only");
-            return [g] { return run_together(read_together(g->list), g->preset, g->threads, g->quiet); };
+            return [g] { return run_together(read_together(g->list), g->preset, g->threads, g->quiet, g->beds); };
           }};
 }
 }  // namespace commands

@@ -27,6 +27,8 @@ std::vector<TogetherCase> read_together(const std::filesystem::path& file);
 /// Runs all of them to their ends and writes each one's folder as `puffin run` does. There are no checkpoints: after a
 /// kill what is not finished begins anew. A population that diverges ends alone; air that diverges ends all. Returns 0,
 /// 5 if any diverged, or, stopped by a signal, 75 or 130.
-int run_together(const std::vector<TogetherCase>& list, std::string_view preset, int threads, bool quiet);
+/// beds: as of RunOptions.
+int run_together(const std::vector<TogetherCase>& list, std::string_view preset, int threads, bool quiet,
+                 const std::filesystem::path& beds);
 
 }  // namespace puffin::tools

@@ -12,16 +12,18 @@ namespace puffin::output {
 namespace {
 
 /// A run with one set of fines and ten rows of history every `step` s, FFE = 0.1 t / s + `more` from 0.5 s on.
-void leave_run(const std::filesystem::path& folder, double FFE, double wall_clock, double step, double more) {
+void leave_run(const std::filesystem::path& folder, double FFE, double wall_clock, double step, double more,
+               const std::string& drug = "drug", const std::string& state = "finished") {
   std::filesystem::create_directories(folder);
   Summary s;
   s.name = "x";
-  s.state = "finished";
+  s.state = state;
+  s.simulated_time = state == "finished" ? 1.0 : 0.5;
   s.wall_clock = wall_clock;
   s.threads = static_cast<int>(wall_clock);
   s.steps = 1000;
   FinesSummary fines;
-  fines.name = "drug";
+  fines.name = drug;
   fines.FFE = FFE;
   s.fines.push_back(fines);
   write_summary(folder / "summary.json", s);
@@ -44,18 +46,20 @@ TEST(Compare, EqualRunsAreEqualHoweverLongTheyTook) {
   const Scratch folder;
   leave_run(folder / "a", 0.5, 1.0, 0.125, 0.0);
   leave_run(folder / "b", 0.5, 9.0, 0.125, 0.0);
-  const auto all = compare_runs(folder / "a", folder / "b", {});
+  const Comparison both = compare_runs(folder / "a", folder / "b", {});
+  const auto& all = both.differences;
   EXPECT_GT(all.size(), 10U);
   for (const Difference& d : all) EXPECT_EQ(d.difference, 0.0) << d.name;
   EXPECT_EQ(named(all, "wall_clock"), nullptr);
-  EXPECT_NE(comparison_text(all).find("0 outside"), std::string::npos);
+  EXPECT_NE(comparison_text(both).find("0 outside"), std::string::npos);
 }
 
 TEST(Compare, ADifferenceIsNamedWithItsSizeAndItsMoment) {
   const Scratch folder;
   leave_run(folder / "a", 0.50, 1.0, 0.125, 0.0);
   leave_run(folder / "b", 0.52, 1.0, 0.125, 0.25);
-  const auto all = compare_runs(folder / "a", folder / "b", {});
+  const Comparison both = compare_runs(folder / "a", folder / "b", {});
+  const auto& all = both.differences;
   const Difference* fines = named(all, "fines.drug.FFE");
   ASSERT_NE(fines, nullptr);
   EXPECT_NEAR(fines->difference, 0.02, 1e-15);
@@ -64,8 +68,8 @@ TEST(Compare, ADifferenceIsNamedWithItsSizeAndItsMoment) {
   ASSERT_NE(history, nullptr);
   EXPECT_NEAR(history->difference, 0.25, 1e-15);
   EXPECT_GT(history->time.value(), 0.5);
-  EXPECT_NE(comparison_text(all).find("OUTSIDE"), std::string::npos);
-  EXPECT_NE(comparison_json(all).find("\"ok\": false"), std::string::npos);
+  EXPECT_NE(comparison_text(both).find("OUTSIDE"), std::string::npos);
+  EXPECT_NE(comparison_json(both).find("\"ok\": false"), std::string::npos);
 }
 
 TEST(Compare, TheLongestNameThatFitsGivesTheTolerance) {
@@ -73,13 +77,14 @@ TEST(Compare, TheLongestNameThatFitsGivesTheTolerance) {
   leave_run(folder / "a", 0.50, 1.0, 0.125, 0.0);
   leave_run(folder / "b", 0.52, 1.0, 0.125, 0.0);
   const auto within = [&](const Tolerances& t) {
-    return named(compare_runs(folder / "a", folder / "b", t), "fines.drug.FFE")->within();
+    return named(compare_runs(folder / "a", folder / "b", t).differences, "fines.drug.FFE")->within();
   };
   EXPECT_TRUE(within({{0.0, 0.0}, {{"fines", {0.03, 0.0}}}, {}}));
   EXPECT_FALSE(within({{1.0, 0.0}, {{"fines", {0.03, 0.0}}, {"fines.drug.FFE", {0.01, 0.0}}}, {}}));
   EXPECT_TRUE(within({{0.0, 0.05}, {}, {}}));
   EXPECT_FALSE(within({{0.0, 0.0}, {{"fine", {1.0, 0.0}}}, {}})) << "part of a word is no name";
-  EXPECT_EQ(named(compare_runs(folder / "a", folder / "b", {{}, {}, {"fines"}}), "fines.drug.FFE"), nullptr);
+  EXPECT_EQ(named(compare_runs(folder / "a", folder / "b", {{}, {}, {"fines"}}).differences, "fines.drug.FFE"),
+            nullptr);
 }
 
 TEST(Compare, HistoriesOfOtherIntervalsAreComparedBetweenTheirRows) {
@@ -87,7 +92,22 @@ TEST(Compare, HistoriesOfOtherIntervalsAreComparedBetweenTheirRows) {
   leave_run(folder / "a", 0.5, 1.0, 0.125, 0.0);
   leave_run(folder / "b", 0.5, 1.0, 0.25, 0.0);
   // FFE is linear in time: linear interpolation gives it to rounding.
-  EXPECT_LT(named(compare_runs(folder / "a", folder / "b", {}), "history.FFE")->difference, 1e-15);
+  EXPECT_LT(named(compare_runs(folder / "a", folder / "b", {}).differences, "history.FFE")->difference, 1e-15);
+}
+
+TEST(Compare, RunsOfOtherNamesAndLengthsAreToldAndTheirOnlyFinesCompared) {
+  const Scratch folder;
+  leave_run(folder / "a", 0.5, 1.0, 0.125, 0.0);
+  leave_run(folder / "b", 0.5, 1.0, 0.125, 0.0, "other", "diverged");
+  const Comparison both = compare_runs(folder / "a", folder / "b", {{0.0, 1e-9}, {{"fines.durg", {1.0, 0.0}}}, {}});
+  EXPECT_EQ(named(both.differences, "fines.drug.FFE")->difference, 0.0);
+  EXPECT_EQ(named(both.differences, "fines.other.FFE"), nullptr);
+  EXPECT_FALSE(named(both.differences, "state")->within()) << "equal numbers of a run that diverged are no agreement";
+  ASSERT_EQ(both.notes.size(), 2U);
+  EXPECT_NE(both.notes[0].find("\"other\" of B"), std::string::npos);
+  EXPECT_NE(both.notes[1].find("0.5 s, where B ends"), std::string::npos);
+  EXPECT_EQ(both.unused, std::vector<std::string>{"fines.durg"});
+  EXPECT_NE(comparison_text(both).find("diverged at 0.5 s"), std::string::npos);
 }
 
 TEST(Compare, AFolderWithoutARunIsAnOutputError) {

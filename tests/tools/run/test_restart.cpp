@@ -98,6 +98,21 @@ TEST_F(Restart, SignalsAndTheWallTimeStopCleanlyAndCanBeResumed) {
   EXPECT_EQ(Child(words("parts", {"--resume"}), log("parts")).wait(), 7) << "a finished run is finished";
 }
 
+TEST_F(Restart, ARunUntilAMomentGoesOnAsIfItHadNeverEnded) {
+  ASSERT_EQ(Child(words("whole"), log("whole")).wait(), 0);
+  // Between two outputs: the step that ends there is cut short, and is none of the whole run.
+  ASSERT_EQ(Child(words("part", {"--until", "5.71 ms"}), log("part")).wait(), 0) << file_text(log("part"));
+  const output::Summary first = output::read_summary(folder_ / "part" / "summary.json");
+  EXPECT_EQ(first.state, "finished");
+  EXPECT_EQ(first.until.value(), 5.71e-3);
+  EXPECT_NEAR(first.simulated_time, 5.71e-3, 1e-5);
+  EXPECT_EQ(Child(words("part"), log("part")).wait(), 7) << "without --resume it is not touched";
+  EXPECT_EQ(Child(words("part", {"--resume"}), log("part")).wait(), 0) << file_text(log("part"));
+  expect_same_outputs(folder_ / "whole", folder_ / "part");
+  EXPECT_FALSE(output::read_summary(folder_ / "part" / "summary.json").until);
+  EXPECT_EQ(Child(words("part", {"--resume"}), log("part")).wait(), 7) << "now it is finished";
+}
+
 TEST_F(Restart, ADamagedCheckpointIsNamedAndTheOlderOneTaken) {
   ASSERT_EQ(Child(words("whole"), log("whole")).wait(), 0);
   {

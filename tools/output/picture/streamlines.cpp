@@ -107,11 +107,10 @@ std::vector<Streamline> even_streamlines(const FieldFrame& field, double apart) 
   while (std::gcd(stride, cells) != 1) stride += 2;
   for (std::int64_t n = 0, cell = 0; n < cells; ++n, cell = (cell + stride) % cells) {
     if (!field.fluid[cell]) continue;
-    const Vec3 seed =
-        Vec3(field.origin[0], field.origin[1], field.origin[2]) +
-        field.dx * Vec3(static_cast<double>(cell % field.size[0]),
-                        static_cast<double>(cell / field.size[0] % field.size[1]),
-                        static_cast<double>(cell / (static_cast<std::int64_t>(field.size[0]) * field.size[1])));
+    const std::int64_t row = cell / field.size[0], layer = row / field.size[1];
+    const Vec3 seed = Vec3(field.origin[0], field.origin[1], field.origin[2]) +
+                      field.dx * Vec3(static_cast<double>(cell % field.size[0]),
+                                      static_cast<double>(row % field.size[1]), static_cast<double>(layer));
     if (blocks.at(seed)) continue;
     blocks.at(seed) = 1;
     Streamline line = trace(field, seed, slowest, longest);

@@ -1,5 +1,7 @@
 #include "tools/puffin/batch/jobs.hpp"
 
+#include <fnmatch.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -45,6 +47,29 @@ double cost_of(const cases::Case& c) {
   return c.stop.time / std::pow(dx * 1e3, 4);
 }
 
+/// Equal for cases whose doses settle to one bed; empty where none settles. Adhesion, stiffness, air and fines in it
+/// are none of it; the bed store, which sees the carriers themselves, has the last word.
+std::string bed_key(cases::Case c) {
+  if (!c.carriers || !c.carriers->fill || c.carriers->fill->shape != cases::FillShape::settled) return "";
+  const cases::Carriers given = *c.carriers;
+  cases::Case bed;
+  bed.name = "bed";
+  bed.geometry = c.geometry;
+  bed.numerics.dx = 1.0;
+  bed.numerics.seed = c.numerics.seed;
+  cases::Carriers& k = bed.carriers.emplace();
+  k.count = given.count, k.parcel = given.parcel, k.diameter = given.diameter, k.sizes = given.sizes;
+  k.density = given.density, k.fines_each = given.fines_each, k.fine_mass_ratio = given.fine_mass_ratio;
+  k.fill = given.fill, k.gravity = given.gravity, k.rotation = given.rotation;
+  k.fill->bulk_density.reset();  // the bed is loosened after it has settled
+  for (auto [to, from] : {std::pair(&k.contact, &given.contact), std::pair(&k.wall_contact, &given.wall_contact)}) {
+    to->restitution = from->restitution;
+    to->friction = from->friction;
+    to->rolling_friction = from->rolling_friction;
+  }
+  return cases::write_resolved(bed);
+}
+
 struct Candidate {
   Job job;
   std::optional<cases::Case> described;
@@ -61,6 +86,7 @@ Candidate candidate(const cases::Study& study, std::size_t which, int replicate,
     c.described = cases::read_study_case(asked, replicate, preset);
     c.job.sets = cases::overrides_of(asked, replicate);
     c.job.resolved = cases::write_resolved(*c.described);
+    c.job.settles = study.share.start && !bed_key(*c.described).empty();
     c.job.cost = cost_of(*c.described);
     c.job.members[0].fines_of_dose = fines_of_dose(*c.described);
     if ((study.share.scalars || study.share.micromodels) && can_share(*c.described))
@@ -129,12 +155,36 @@ void explain(const cases::Study& study, const std::vector<Job>& jobs, std::vecto
        {std::tuple(study.share.scalars, "scalars",
                    "no two cases differ in the diffusion or scheme of their scalar alone"),
         std::tuple(study.share.micromodels, "micromodels", "no two cases differ in their micro-models alone")})
-    if (wanted && std::none_of(sharings.begin(), sharings.end(), [&](const Sharing& s) { return s.name == word; }))
+    if (wanted &&
+        std::none_of(sharings.begin(), sharings.end(), [name = word](const Sharing& s) { return s.name == name; }))
       sharings.push_back({word, false, what, ""});
   if (study.share.geometry)
     sharings.push_back(
         {"geometry", false, "finding the cells takes about a second of a run: not worth a shared file", ""});
-  if (study.share.start) sharings.push_back({"start", false, "this version starts every run from air at rest", ""});
+}
+
+/// Which cases begin from one bed. Cases in one run share it anyway.
+void explain_beds(const cases::Study& study, std::string_view preset, Jobs& plan) {
+  std::map<std::string, std::pair<int, std::string>> beds;  // jobs, and the names of their cases
+  for (const Job& job : plan.jobs) {
+    if (job.replicate != 0 || !job.settles) continue;
+    auto& [jobs, names] = beds[bed_key(cases::read_case(job.base, job.sets, preset))];
+    ++jobs;
+    names += (names.empty() ? "" : ", ") + listed(study, job);
+  }
+  bool any = false;
+  for (const auto& [key, bed] : beds) {
+    if (bed.first < 2) continue;
+    any = true;
+    plan.sharings.push_back({"start", true, bed.second + ": the dose settles once, in the first run that needs it",
+                             "the carriers lie the same to the last bit"});
+  }
+  if (!any)
+    plan.sharings.push_back({"start", false,
+                             beds.empty() ? "no dose settles (carriers.fill.shape = \"settled\"), and a stack takes no "
+                                            "time; the air of every run begins at rest"
+                                          : "no two cases let the same dose settle",
+                             ""});
 }
 
 /// Gives jobs of one replicate that can feel the same flow its name, and makes them one-way.
@@ -172,6 +222,12 @@ void share_flows(const cases::Study& study, std::string_view preset, Jobs& plan)
 
 }  // namespace
 
+bool is_named(const cases::Study& study, const Job& job, const std::string& pattern) {
+  return pattern.empty() || std::any_of(job.members.begin(), job.members.end(), [&](const Member& m) {
+           return fnmatch(pattern.c_str(), study.cases[m.which].name.c_str(), 0) == 0;
+         });
+}
+
 Jobs plan_jobs(const cases::Study& study, std::string_view preset) {
   Jobs plan;
   for (int replicate = 0; replicate < study.replicates; ++replicate) {
@@ -190,6 +246,7 @@ Jobs plan_jobs(const cases::Study& study, std::string_view preset) {
     }
   }
   explain(study, plan.jobs, plan.sharings);
+  if (study.share.start) explain_beds(study, preset, plan);
   if (study.share.one_way_flow) share_flows(study, preset, plan);
   return plan;
 }

@@ -27,6 +27,7 @@ struct Job {
   std::string problem;   // why it is invalid
   double cost = 0.0;     // relative: cells times steps
   std::string flow;      // jobs with the same one run in one process and one flow; "" alone
+  bool settles = false;  // its dose falls before it starts: the bed can serve other runs of the study
 };
 
 struct Sharing {
@@ -42,7 +43,11 @@ struct Jobs {
 
 /// share = scalars: cases that are equal but for their name, reference and the diffusion and scheme of their one
 /// reflected scalar run once with a scalar each: fines do not act on air or carriers. share = micromodels: those that
-/// are equal but for their micro-models run once with the first one's; the fines of the others are replayed.
+/// are equal but for their micro-models run once with the first one's; the fines of the others are replayed. share =
+/// start: doses that settle equally are settled once (cases/bed_store.hpp).
 Jobs plan_jobs(const cases::Study& study, std::string_view preset);
+
+/// Whether the name of one of its cases fits the pattern of --only, like "L-*"; every name fits "".
+bool is_named(const cases::Study& study, const Job& job, const std::string& pattern);
 
 }  // namespace puffin::tools

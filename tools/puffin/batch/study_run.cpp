@@ -1,7 +1,5 @@
 #include "tools/puffin/batch/study_run.hpp"
 
-#include <fnmatch.h>
-
 #include <algorithm>
 #include <csignal>
 #include <cstdlib>
@@ -118,11 +116,7 @@ class Batch {
                 "' ends it");
   }
 
-  bool wanted(const Job& job) const {
-    return options_.only.empty() || std::any_of(job.members.begin(), job.members.end(), [&](const Member& m) {
-             return fnmatch(options_.only.c_str(), study_.cases[m.which].name.c_str(), 0) == 0;
-           });
-  }
+  bool wanted(const Job& job) const { return is_named(study_, job, options_.only); }
 
   /// Which runs are to do; the dearest first, so that no long one is left alone at the end.
   void sort_out() {
@@ -166,6 +160,10 @@ class Batch {
     return group;
   }
 
+  void add_beds(const Job& job, std::vector<std::string>& arguments) const {
+    if (job.settles) arguments.insert(arguments.end(), {"--beds", (book_.folder() / "shared" / "beds").string()});
+  }
+
   /// Writes the list for puffin together and returns its arguments.
   std::vector<std::string> arguments_of_flow(const std::vector<std::size_t>& group, int threads) const {
     nlohmann::json list = nlohmann::json::array();
@@ -178,6 +176,9 @@ class Batch {
     std::vector<std::string> arguments{"together", book_.flow_file(group.front()).string(), "--threads",
                                        std::to_string(threads)};
     if (!options_.preset.empty()) arguments.insert(arguments.end(), {"--preset", options_.preset});
+    const auto settles = [&](std::size_t m) { return plan_.jobs[m].settles; };
+    if (const auto m = std::find_if(group.begin(), group.end(), settles); m != group.end())
+      add_beds(plan_.jobs[*m], arguments);
     return arguments;
   }
 
@@ -189,6 +190,7 @@ class Batch {
                                        "--threads", std::to_string(threads)};
     if (!options_.preset.empty()) arguments.insert(arguments.end(), {"--preset", options_.preset});
     for (const cases::Override& o : job.sets) arguments.insert(arguments.end(), {"--set", o.key + "=" + o.value});
+    add_beds(job, arguments);
     if (book_.resumable(n)) arguments.emplace_back("--resume");
     return arguments;
   }
