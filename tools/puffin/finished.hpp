@@ -5,9 +5,7 @@
 
 namespace puffin::tools {
 
-inline bool at_stop_time(const cases::Simulation& s) {
-  return s.state.time >= s.description.stop.time * (1.0 - 1e-12);
-}
+inline bool at_stop_time(const cases::Simulation& s) { return s.state.time >= s.description.stop.time * (1.0 - 1e-12); }
 
 /// At its stop time; or, with stop.when_empty, when every carrier has left and less than a millionth of the fines is
 /// still airborne (without air, what is in it stays for ever: then the carriers alone count).

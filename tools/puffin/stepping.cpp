@@ -165,7 +165,7 @@ Ending Stepping::run() {
       }
       health_.check(s_.models, s_.state);
       Ending ending;
-      ending.goes_on = shortened_ && is_over();
+      ending.goes_on = shortened_ && at_stop_time(s_);
       if (ending.goes_on) write_checkpoint(good_);
       return ending;
     } catch (const coupling::Diverged& e) {
