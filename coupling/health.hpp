@@ -18,6 +18,9 @@ struct HealthLimits {
   double ledger = 1e-9;
 };
 
+/// Whether a state that was checked `since` air steps ago must be checked before `next` more: every hundred at least.
+constexpr bool check_due(std::int64_t since, std::int64_t next) { return since + next > 100; }
+
 class Health {
  public:
   /// `state` at the start of the run: carriers that begin outside the walls are not asked to be inside.

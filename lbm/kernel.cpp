@@ -4,87 +4,61 @@
 
 namespace puffin::lbm {
 
+// The same functions stand in the units of every instruction set.
 namespace baseline {
-Kernel<float> kernel_float(Law law, bool rescale);
-Kernel<double> kernel_double(Law law, bool rescale);
-WallKernel<float> walls_float();
-WallKernel<double> walls_double();
-FluxKernel<float> fluxes_float();
-FluxKernel<double> fluxes_double();
-VelocityKernel<float> velocities_float();
-VelocityKernel<double> velocities_double();
-GradientKernel gradients();
-}  // namespace baseline
+#include "lbm/kernel_units.inc.hpp"
+}
 namespace avx2 {
-Kernel<float> kernel_float(Law law, bool rescale);
-Kernel<double> kernel_double(Law law, bool rescale);
-WallKernel<float> walls_float();
-WallKernel<double> walls_double();
-FluxKernel<float> fluxes_float();
-FluxKernel<double> fluxes_double();
-VelocityKernel<float> velocities_float();
-VelocityKernel<double> velocities_double();
-GradientKernel gradients();
-}  // namespace avx2
+#include "lbm/kernel_units.inc.hpp"
+}
 namespace avx512 {
-Kernel<float> kernel_float(Law law, bool rescale);
-Kernel<double> kernel_double(Law law, bool rescale);
-WallKernel<float> walls_float();
-WallKernel<double> walls_double();
-FluxKernel<float> fluxes_float();
-FluxKernel<double> fluxes_double();
-VelocityKernel<float> velocities_float();
-VelocityKernel<double> velocities_double();
-GradientKernel gradients();
-}  // namespace avx512
+#include "lbm/kernel_units.inc.hpp"
+}
+
+namespace {
+
+template <class Unit>
+Unit of(Isa isa, Unit base, Unit avx2, Unit avx512) {
+  if (isa == Isa::avx512) return avx512;
+  return isa == Isa::avx2 ? avx2 : base;
+}
+
+}  // namespace
 
 template <class T>
 Kernel<T> select_kernel(Law law, bool rescale, Isa isa) {
-  if constexpr (std::is_same_v<T, float>) {
-    if (isa == Isa::avx512) return avx512::kernel_float(law, rescale);
-    return isa == Isa::avx2 ? avx2::kernel_float(law, rescale) : baseline::kernel_float(law, rescale);
-  } else {
-    if (isa == Isa::avx512) return avx512::kernel_double(law, rescale);
-    return isa == Isa::avx2 ? avx2::kernel_double(law, rescale) : baseline::kernel_double(law, rescale);
-  }
+  if constexpr (std::is_same_v<T, float>)
+    return of(isa, baseline::kernel_float, avx2::kernel_float, avx512::kernel_float)(law, rescale);
+  else
+    return of(isa, baseline::kernel_double, avx2::kernel_double, avx512::kernel_double)(law, rescale);
 }
 
 template <class T>
 WallKernel<T> select_wall_kernel(Isa isa) {
-  if constexpr (std::is_same_v<T, float>) {
-    if (isa == Isa::avx512) return avx512::walls_float();
-    return isa == Isa::avx2 ? avx2::walls_float() : baseline::walls_float();
-  } else {
-    if (isa == Isa::avx512) return avx512::walls_double();
-    return isa == Isa::avx2 ? avx2::walls_double() : baseline::walls_double();
-  }
+  if constexpr (std::is_same_v<T, float>)
+    return of(isa, baseline::walls_float, avx2::walls_float, avx512::walls_float)();
+  else
+    return of(isa, baseline::walls_double, avx2::walls_double, avx512::walls_double)();
 }
 
 template <class T>
 FluxKernel<T> select_flux_kernel(Isa isa) {
-  if constexpr (std::is_same_v<T, float>) {
-    if (isa == Isa::avx512) return avx512::fluxes_float();
-    return isa == Isa::avx2 ? avx2::fluxes_float() : baseline::fluxes_float();
-  } else {
-    if (isa == Isa::avx512) return avx512::fluxes_double();
-    return isa == Isa::avx2 ? avx2::fluxes_double() : baseline::fluxes_double();
-  }
+  if constexpr (std::is_same_v<T, float>)
+    return of(isa, baseline::fluxes_float, avx2::fluxes_float, avx512::fluxes_float)();
+  else
+    return of(isa, baseline::fluxes_double, avx2::fluxes_double, avx512::fluxes_double)();
 }
 
 template <class T>
 VelocityKernel<T> select_velocity_kernel(Isa isa) {
-  if constexpr (std::is_same_v<T, float>) {
-    if (isa == Isa::avx512) return avx512::velocities_float();
-    return isa == Isa::avx2 ? avx2::velocities_float() : baseline::velocities_float();
-  } else {
-    if (isa == Isa::avx512) return avx512::velocities_double();
-    return isa == Isa::avx2 ? avx2::velocities_double() : baseline::velocities_double();
-  }
+  if constexpr (std::is_same_v<T, float>)
+    return of(isa, baseline::velocities_float, avx2::velocities_float, avx512::velocities_float)();
+  else
+    return of(isa, baseline::velocities_double, avx2::velocities_double, avx512::velocities_double)();
 }
 
 GradientKernel select_gradient_kernel(Isa isa) {
-  if (isa == Isa::avx512) return avx512::gradients();
-  return isa == Isa::avx2 ? avx2::gradients() : baseline::gradients();
+  return of(isa, baseline::gradients, avx2::gradients, avx512::gradients)();
 }
 
 template VelocityKernel<float> select_velocity_kernel<float>(Isa);

@@ -23,10 +23,7 @@ const std::vector<Kind>& catalogue() {
 const Kind& kind_named(const std::string& name) {
   for (const Kind& kind : catalogue())
     if (kind.name == name) return kind;
-  const std::string near = nearest(name, generator_kinds());
-  throw std::invalid_argument(
-      "unknown generator '" + name + "'" +
-      (near.empty() ? "; known: " + join(generator_kinds()) : "; did you mean '" + near + "'?"));
+  throw std::invalid_argument("unknown generator '" + name + "'" + did_you_mean_or_known(name, generator_kinds()));
 }
 
 std::string type_name(const ParameterValue& value) {
@@ -58,10 +55,7 @@ void check_value(const ParameterInfo& info, const ParameterValue& value, Problem
     for (const double one : *numbers) check_range(info, one, problems);
   } else if (const auto* word = std::get_if<std::string>(&value);
              word != nullptr && std::find(info.choices.begin(), info.choices.end(), *word) == info.choices.end()) {
-    const std::string near = nearest(*word, info.choices);
-    problems.push_back(
-        {info.name,
-         "is '" + *word + "'" + (near.empty() ? "; known: " + join(info.choices) : "; did you mean '" + near + "'?")});
+    problems.push_back({info.name, "is '" + *word + "'" + did_you_mean_or_known(*word, info.choices)});
   }
 }
 
@@ -77,10 +71,7 @@ Problems resolve(const Kind& kind, const Parameters& given, Parameters& complete
     const auto info = std::find_if(kind.parameters.begin(), kind.parameters.end(),
                                    [&name = name](const ParameterInfo& p) { return p.name == name; });
     if (info == kind.parameters.end()) {
-      const std::string near = nearest(name, names);
-      problems.push_back({name, near.empty()
-                                    ? "is not a parameter of " + kind.name + "; known: " + join(names)
-                                    : "is not a parameter of " + kind.name + "; did you mean '" + near + "'?"});
+      problems.push_back({name, "is not a parameter of " + kind.name + did_you_mean_or_known(name, names)});
       continue;
     }
     check_value(*info, value, problems);

@@ -208,9 +208,7 @@ double Formula::operator()(const std::map<std::string, double>& known) const {
       std::vector<std::string> all;
       all.reserve(known.size());
       for (const auto& [k, v] : known) all.push_back(k);
-      const std::string near = nearest(name, all);
-      throw std::invalid_argument("'" + name + "' is not known" +
-                                  (near.empty() ? "" : "; did you mean '" + near + "'?"));
+      throw std::invalid_argument("'" + name + "' is not known" + did_you_mean(name, all));
     }
     values.push_back(found->second);
   }

@@ -1,7 +1,6 @@
 #include <algorithm>
 
-#include "cases/format/toml_fields.hpp"
-#include "cases/format/toml_file.hpp"
+#include "cases/format/read_fields.hpp"
 #include "cases/spelling.hpp"
 #include "cases/verification/ablation.hpp"
 #include "cases/verification/overrides.hpp"
@@ -37,15 +36,11 @@ void describe(Fields& io, Ablation& a, const AblationList& list) {
 }  // namespace
 
 AblationList read_ablations(const std::filesystem::path& file) {
-  const std::string text = format::read_text(file);
-  const toml::table root = format::parse_toml(text, file.string());
-  format::Findings findings(file.string(), text);
   AblationList list;
-  format::TomlFields fields(root, "", findings, file.parent_path());
-  fields.list("scene", list.scenes, [](Fields& f, AblationScene& s) { describe(f, s); });
-  fields.list("skip", list.skips, [&](Fields& f, Ablation& a) { describe(f, a, list); });
-  fields.finish();
-  if (!findings.problems().empty()) throw CaseError(findings.sorted_problems());
+  format::read_fields(file, [&](Fields& io) {
+    io.list("scene", list.scenes, [](Fields& f, AblationScene& s) { describe(f, s); });
+    io.list("skip", list.skips, [&](Fields& f, Ablation& a) { describe(f, a, list); });
+  });
   return list;
 }
 

@@ -1,8 +1,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "cases/format/toml_fields.hpp"
-#include "cases/format/toml_file.hpp"
+#include "cases/format/read_fields.hpp"
 #include "cases/spelling.hpp"
 #include "cases/verification/overrides.hpp"
 #include "cases/verification/pareto.hpp"
@@ -152,16 +151,9 @@ VerificationRun run_of(const ParetoCase& c, const std::vector<Override>& sets, b
 }
 
 ParetoCase read_pareto(const std::filesystem::path& folder) {
-  const std::filesystem::path file = folder / "pareto.toml";
-  const std::string text = format::read_text(file);
-  const toml::table root = format::parse_toml(text, file.string());
-  format::Findings findings(file.string(), text);
   ParetoCase c;
   c.folder = folder;
-  format::TomlFields fields(root, "", findings, folder);
-  describe(fields, c);
-  fields.finish();
-  if (!findings.problems().empty()) throw CaseError(findings.sorted_problems());
+  format::read_fields(folder / "pareto.toml", [&](Fields& f) { describe(f, c); });
   return c;
 }
 

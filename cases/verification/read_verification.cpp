@@ -3,8 +3,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "cases/format/toml_fields.hpp"
-#include "cases/format/toml_file.hpp"
+#include "cases/format/read_fields.hpp"
 #include "cases/spelling.hpp"
 #include "cases/verification/overrides.hpp"
 #include "cases/verification/verification.hpp"
@@ -190,16 +189,9 @@ void describe(Fields& io, Verification& v) {
 }  // namespace
 
 Verification read_verification(const std::filesystem::path& folder) {
-  const std::filesystem::path file = folder / "verify.toml";
-  const std::string text = format::read_text(file);
-  const toml::table root = format::parse_toml(text, file.string());
-  format::Findings findings(file.string(), text);
   Verification v;
   v.folder = folder;
-  format::TomlFields fields(root, "", findings, folder);
-  describe(fields, v);
-  fields.finish();
-  if (!findings.problems().empty()) throw CaseError(findings.sorted_problems());
+  format::read_fields(folder / "verify.toml", [&](Fields& f) { describe(f, v); });
   return v;
 }
 

@@ -4,6 +4,7 @@
 
 #include "tools/output/events_file.hpp"
 #include "tools/output/output_error.hpp"
+#include "tools/puffin/summarize.hpp"
 
 namespace puffin::tools {
 namespace {
@@ -90,20 +91,8 @@ StoredRun read_stored_run(const std::filesystem::path& folder) {
 std::vector<output::FinesSummary> summaries(const coupling::Replayed& replayed,
                                             const std::vector<std::string>& scalars) {
   std::vector<output::FinesSummary> all;
-  const double wall = replayed.to_air[0] + replayed.to_wall, particle = replayed.to_air[1], drag = replayed.to_air[2];
-  for (std::size_t k = 0; k < replayed.sets.size(); ++k) {
-    const coupling::Ledger& ledger = replayed.sets[k];
-    output::FinesSummary f;
-    f.name = scalars.at(k);
-    f.FFE = ledger.FFE();
-    f.FFW = ledger.FFW();
-    f.FFCR = ledger.FFCR();
-    f.FFCE = ledger.FFCE();
-    f.in_air = ledger.air_fraction();
-    f.ledger_error = ledger.error();
-    if (const double sum = wall + particle + drag; sum > 0.0) f.by_mechanism = {wall / sum, particle / sum, drag / sum};
-    all.push_back(f);
-  }
+  for (std::size_t k = 0; k < replayed.sets.size(); ++k)
+    all.push_back(fines_summary(scalars.at(k), replayed.sets[k], replayed.to_air, replayed.to_wall));
   return all;
 }
 

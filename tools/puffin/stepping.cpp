@@ -7,6 +7,7 @@
 #include "tools/output/report/live_page.hpp"
 #include "tools/puffin/console.hpp"
 #include "tools/puffin/exit_codes.hpp"
+#include "tools/puffin/finished.hpp"
 #include "tools/puffin/lattice_limits.hpp"
 
 namespace puffin::tools {
@@ -16,7 +17,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int most_retreats = 3;
-constexpr std::int64_t steps_between_checks = 100, steps_between_memories = 500;  // air steps; see Stepping::steps
+constexpr std::int64_t steps_between_memories = 500;  // air steps; see Stepping::steps
 
 volatile std::sig_atomic_t received_signal = 0;
 
@@ -85,17 +86,6 @@ std::int64_t Stepping::steps() const { return s_.state.air ? s_.state.air->steps
 
 double Stepping::wall_clock() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 
-bool Stepping::is_over() const { return s_.state.time >= s_.description.stop.time * (1.0 - 1e-12); }
-
-bool Stepping::finished() const {
-  if (is_over()) return true;
-  if (!s_.description.stop.when_empty || !s_.description.carriers) return false;
-  if (s_.state.carriers.carriers.size() > 0) return false;
-  if (s_.state.scalars.scalars() == 0 || !s_.state.air) return true;  // without air, fines in it stay for ever
-  const auto ledger = coupling::ledger(s_.state.fines, s_.state.scalars, s_.state.budget, 0);
-  return ledger.in_air < 1e-6 * ledger.loaded;
-}
-
 void Stepping::step() {
   coupling::advance(s_.models, std::min(recorder_->next(), s_.description.stop.time), s_.state);
   health_.check_impacts(s_.models, s_.state);
@@ -110,7 +100,7 @@ void Stepping::step() {
 /// clock.
 void Stepping::look_after() {
   const std::int64_t next = s_.state.air ? s_.models.steps_per_exchange_asleep : 1;  // more than one interval has
-  if (steps() - checked_ + next <= steps_between_checks) return;
+  if (!coupling::check_due(steps() - checked_, next)) return;
   health_.check(s_.models, s_.state);
   checked_ = steps();
   if (steps() - remembered_ < steps_between_memories) return;
@@ -158,10 +148,10 @@ Ending Stepping::run() {
   const Signals signals;
   for (;;) try {
       recorder_->record(s_);
-      while (!finished()) {
+      while (!finished(s_)) {
         step();
         // The step that --until cut short is none of the whole run: what goes on begins before it.
-        if (shortened_ && is_over()) break;
+        if (shortened_ && at_stop_time(s_)) break;
         look_after();
         if (received_signal == 0 && wall_clock() <= walltime_) continue;
         health_.check(s_.models, s_.state);
@@ -175,7 +165,7 @@ Ending Stepping::run() {
       }
       health_.check(s_.models, s_.state);
       Ending ending;
-      ending.goes_on = shortened_ && is_over();
+      ending.goes_on = shortened_ && at_stop_time(s_);
       if (ending.goes_on) write_checkpoint(good_);
       return ending;
     } catch (const coupling::Diverged& e) {

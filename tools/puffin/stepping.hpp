@@ -47,8 +47,6 @@ class Stepping {
   double output_seconds() const { return output_seconds_; }
 
  private:
-  bool finished() const;
-  bool is_over() const;
   void step();
   void look_after();
   void remember(coupling::Checkpoint& checkpoint) const;

@@ -102,19 +102,10 @@ std::vector<output::FinesSummary> fines(const cases::Simulation& s) {
   for (std::size_t k = 0; k < s.description.fines->scalars.size() && s.state.scalars.scalars() > 0; ++k) {
     const coupling::Ledger ledger =
         coupling::ledger(s.state.fines, s.state.scalars, s.state.budget, static_cast<int>(k));
-    output::FinesSummary f;
-    f.name = s.description.fines->scalars[k].name;
-    f.FFE = ledger.FFE();
-    f.FFW = ledger.FFW();
-    f.FFCR = ledger.FFCR();
-    f.FFCE = ledger.FFCE();
-    f.in_air = ledger.air_fraction();
-    f.ledger_error = ledger.error();
-    // Of all fines that left a carrier; what sticks to walls was taken there by wall impacts.
-    const double wall = s.state.fines.to_air[0].value() + s.state.fines.to_wall.value();
-    const double particle = s.state.fines.to_air[1].value(), drag = s.state.fines.to_air[2].value();
-    if (const double sum = wall + particle + drag; sum > 0.0) f.by_mechanism = {wall / sum, particle / sum, drag / sum};
-    all.push_back(f);
+    const auto& to_air = s.state.fines.to_air;
+    all.push_back(fines_summary(s.description.fines->scalars[k].name, ledger,
+                                {to_air[0].value(), to_air[1].value(), to_air[2].value()},
+                                s.state.fines.to_wall.value()));
   }
   return all;
 }
@@ -194,6 +185,21 @@ void add_reference(const cases::Simulation& s, output::Summary& summary) {
 }
 
 }  // namespace
+
+output::FinesSummary fines_summary(const std::string& name, const coupling::Ledger& ledger,
+                                   const std::array<double, 3>& to_air, double to_wall) {
+  output::FinesSummary f;
+  f.name = name;
+  f.FFE = ledger.FFE();
+  f.FFW = ledger.FFW();
+  f.FFCR = ledger.FFCR();
+  f.FFCE = ledger.FFCE();
+  f.in_air = ledger.air_fraction();
+  f.ledger_error = ledger.error();
+  const double wall = to_air[0] + to_wall, particle = to_air[1], drag = to_air[2];
+  if (const double sum = wall + particle + drag; sum > 0.0) f.by_mechanism = {wall / sum, particle / sum, drag / sum};
+  return f;
+}
 
 output::Summary summarize(const cases::Simulation& s, const Recorder& recorder, const RunFacts& facts) {
   output::Summary r;

@@ -1,6 +1,7 @@
 #pragma once
 // summary.json from a simulation and its history.
 
+#include <array>
 #include <optional>
 #include <string>
 
@@ -19,6 +20,11 @@ struct RunFacts {
   double set_up = 0.0, output = 0.0;  // [s]
   int threads = 0;
 };
+
+/// The block of one scalar. Mechanisms (wall, particle, drag) share all fines that left a carrier, which are those that
+/// each gave to the air, and to_wall: what sticks to walls was taken there by wall impacts.
+output::FinesSummary fines_summary(const std::string& name, const coupling::Ledger& ledger,
+                                   const std::array<double, 3>& to_air, double to_wall);
 
 output::Summary summarize(const cases::Simulation& s, const Recorder& recorder, const RunFacts& facts);
 

@@ -26,6 +26,7 @@
 #include "tools/puffin/commands.hpp"
 #include "tools/puffin/console.hpp"
 #include "tools/puffin/exit_codes.hpp"
+#include "tools/puffin/finished.hpp"
 #include "tools/puffin/progress.hpp"
 #include "tools/puffin/stored_field.hpp"
 #include "tools/puffin/summarize.hpp"
@@ -36,8 +37,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
-constexpr std::int64_t steps_between_checks = 100;
 
 volatile std::sig_atomic_t received = 0;
 
@@ -55,15 +54,6 @@ struct Population {
   coupling::State& state() { return simulation->state; }
   double stop() const { return simulation->description.stop.time; }
 };
-
-bool finished(Population& p) {
-  const coupling::State& s = p.state();
-  if (s.time >= p.stop() * (1.0 - 1e-12)) return true;
-  if (!p.simulation->description.stop.when_empty || s.carriers.carriers.size() > 0) return false;
-  if (s.scalars.scalars() == 0) return true;
-  const auto ledger = coupling::ledger(s.fines, s.scalars, s.budget, 0);
-  return ledger.in_air < 1e-6 * ledger.loaded;
-}
 
 class Company {
  public:
@@ -140,6 +130,7 @@ class Company {
       Population& p = *who[n];
       if (p.ended) continue;
       const Clock::time_point begin = Clock::now();
+      bool done = false;
       try {
         if (!members[n].failure.empty()) throw coupling::Diverged(members[n].failure);
         p.health->check_impacts(p.simulation->models, p.state());
@@ -148,13 +139,14 @@ class Company {
           p.recorder->record(*p.simulation);
           p.progress->update(*p.recorder, {}, false);
           const std::int64_t steps = p.state().air->steps, next = p.simulation->models.steps_per_exchange_asleep;
-          if (steps - p.checked + next > steps_between_checks) {
+          if (coupling::check_due(steps - p.checked, next)) {
             p.health->check(p.simulation->models, p.state());
             p.checked = steps;
           }
+          done = finished(*p.simulation);
         });
         p.output += seconds_since(begin);
-        if (finished(p)) end(p, "finished", "");
+        if (done) end(p, "finished", "");
       } catch (const coupling::Diverged& e) {
         diverged_ = true;
         end(p, "diverged", e.what());
