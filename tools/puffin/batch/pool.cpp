@@ -18,6 +18,7 @@ Child::Child(const std::vector<std::string>& arguments, const std::filesystem::p
   std::vector<std::string> words{program};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
+  argv.reserve(words.size() + 1);
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
   const std::string log_name = log.string();

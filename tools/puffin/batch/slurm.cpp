@@ -60,7 +60,7 @@ std::string shell_quoted(const std::string& word) {
   return out + "'";
 }
 
-SlurmArray::SlurmArray(fs::path study) : folder_(std::move(study) / "slurm") {
+SlurmArray::SlurmArray(const fs::path& study) : folder_(study / "slurm") {
   std::ifstream stream(folder_ / "array.txt");
   stream >> id_;
   for (std::size_t job = 0; stream >> job;) open_.push_back(job);
@@ -77,7 +77,7 @@ void SlurmArray::submit(const std::string& name, const std::vector<SlurmTask>& t
   const std::string program = fs::read_symlink("/proc/self/exe").string();
   for (const SlurmTask& task : tasks) {
     std::string command = shell_quoted(program);
-    for (const std::string& word : task.arguments) command += " " + shell_quoted(word);
+    for (const std::string& word : task.arguments) command.append(" ").append(shell_quoted(word));
     fs::remove(code_file(folder_, task.job));
     // Slurm's SIGTERM must reach the program, which then writes a checkpoint: the shell waits twice, as a trap ends
     // `wait`.

@@ -18,7 +18,7 @@ struct SlurmTask {
 class SlurmArray {
  public:
   /// Remembers the array of an earlier call, if slurm/array.txt names one.
-  explicit SlurmArray(std::filesystem::path study);
+  explicit SlurmArray(const std::filesystem::path& study);
 
   /// Whether the remembered array still has tasks in the queue. Then open() are those not yet booked as ended.
   bool queued();
