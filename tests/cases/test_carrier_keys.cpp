@@ -152,7 +152,8 @@ TEST(Settle, ABedComesToRestAndIsLoosenedToTheDensityAskedFor) {
     c.id = n;
     c.radius = 75e-6;
     c.mass = 1520.0 * 4.0 / 3.0 * M_PI * std::pow(c.radius, 3);
-    c.position = {180e-6 * (n % 3) + 7e-6 * (n % 5), 180e-6 * (n / 3 % 3) - 5e-6 * (n % 7), 180e-6 * (n / 9) + 90e-6};
+    const int column = n % 3, row = n / 3 % 3, layer = n / 9;
+    c.position = {180e-6 * column + 7e-6 * (n % 5), 180e-6 * row - 5e-6 * (n % 7), 180e-6 * layer + 90e-6};
     carriers.push_back(c);
   }
   const SettledBed bed = settle(models, Floor(), carriers);

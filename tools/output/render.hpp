@@ -30,7 +30,7 @@ struct RenderOptions {
 /// Streamlines need a stored region "all" or a box: of the first one of those. Slices take the first region with
 /// velocity. Throws OutputError if the run has no such data or the picture cannot be written.
 void render(const std::filesystem::path& run, View view, std::optional<double> time, const std::filesystem::path& png,
-            const RenderOptions& options = {});
+            const RenderOptions& options = RenderOptions());
 
 /// The stored moments [s] that a view can show, in order; of slices and streamlines those with velocities.
 std::vector<double> moments_of(const std::filesystem::path& run, View view);

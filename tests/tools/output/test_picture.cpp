@@ -223,9 +223,9 @@ TEST(Render, AMissingViewSaysWhatIsMissing) {
   const Scratch folder;
   write_synthetic_run(folder / "run", RunKind::flow_only);
   EXPECT_FALSE(can_render(folder / "run", View::carriers));
-  EXPECT_THROW(render(folder / "run", View::carriers, {}, folder / "a.png"), OutputError);
-  EXPECT_THROW(render(folder / "none", View::geometry, {}, folder / "a.png"), OutputError);
   const RenderOptions usual;
+  EXPECT_THROW(render(folder / "run", View::carriers, {}, folder / "a.png", usual), OutputError);
+  EXPECT_THROW(render(folder / "none", View::geometry, {}, folder / "a.png", usual), OutputError);
   EXPECT_THROW(render(folder / "run", View::geometry, {}, "/proc/a.png", usual), OutputError);
   EXPECT_THROW(parse_view("carrier"), std::invalid_argument);
   EXPECT_EQ(parse_view("wall-map"), View::wall_map);
