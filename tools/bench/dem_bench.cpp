@@ -79,7 +79,7 @@ std::vector<DemRow> dem_benchmark(bool quick, std::vector<std::int64_t> sizes,
     for (const std::int64_t carriers : sizes)
       for (const int threads : {1, 2}) {
         if (threads > oneapi::tbb::info::default_concurrency()) continue;
-        const bool other_has_it = std::string(scene) != "resting";  // nothing sleeps there
+        const bool other_has_it = std::string(scene) != "resting";         // nothing sleeps there
         if (quick && !other_has_it && carriers > sizes.front()) continue;  // a large bed takes minutes to fall asleep
         rows.push_back(measure_dem({scene, carriers, threads}, quick ? 0.5 : 2.0, !quick && other_has_it));
         if (row_done) row_done(rows.back());
