@@ -8,6 +8,7 @@
 #include "coupling/divergence.hpp"
 #include "coupling/stopwatch.hpp"
 #include "lbm/eddy_diffusion.hpp"
+#include "lbm/wall_schemes.hpp"
 
 namespace puffin::coupling {
 
@@ -101,7 +102,7 @@ void carry_fines(const Models& models, bool now, State& s) {
   for (std::size_t k = 0; k < options.scalar.size(); ++k)
     options.scalar[k].diffusivity = s.scale.viscosity_lu(models.diffusion[k]);
   if (computes_air(models, s)) {  // a frozen field's stay
-    lbm::find_mass_fluxes(*s.air, s.routes, s.fluxes);
+    lbm::find_mass_fluxes(*s.air, s.routes, lbm::wall_speed(s.drive, *s.air), s.fluxes);
     if (!s.pores.cells.empty()) lbm::share_fluxes(*s.air, s.pores, s.routes, s.fluxes);
     if (models.turbulent_schmidt > 0.0)
       lbm::find_eddy_diffusion(*s.air, s.scale.relaxation_time(models.air.viscosity / models.air.density),

@@ -113,10 +113,12 @@ class ApplyLinks {
     walls_.walls = schedule_.runs.data();
     walls_.partner = air.links.partner.data();
     walls_.moving = air.links.moving.data();
+    walls_.returned = air.links.returned.data();
     walls_.groups = schedule_.groups.data();
     walls_.places = schedule_.places.data();
     walls_.group_partner = schedule_.partner.data();
     walls_.group_moving = schedule_.moving.data();
+    walls_.group_returned = schedule_.returned.data();
     walls_.parity = p.next;
     walls_.wall_speed = wall_speed(drive, air);
   }

@@ -91,11 +91,13 @@ struct WallInput {
   std::size_t first = 0, last = 0;  // [first, last) of walls
   const float* partner = nullptr;   // weight of the second population in the interpolation
   const float* moving = nullptr;    // or null
+  const float* returned = nullptr;  // of `moving`, likewise
   const WallGroup* groups = nullptr;
   std::size_t first_group = 0, last_group = 0;
   const std::int32_t* places = nullptr;  // and coefficients, of groups
   const float* group_partner = nullptr;
   const float* group_moving = nullptr;
+  const float* group_returned = nullptr;
   Parity parity = Parity::even;  // of the collision that has just been done
   double wall_speed = 0.0;       // multiplies `moving` [lattice units]
 };

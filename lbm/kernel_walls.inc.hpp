@@ -7,6 +7,7 @@ struct WallLinks {
   const T* partner[18];     // what helps to interpolate
   const float* weight[18];  // of the partner
   const float* moving[18];
+  const float* returned[18];
   T* back[18];  // where the reflected population goes
   T* rest;      // population at rest: takes the imbalance
   int count = 0;
@@ -34,6 +35,7 @@ template <class T>
     const std::size_t at = wall.coefficient + static_cast<std::size_t>(k) * wall.count;
     links.weight[k] = in.partner + at;
     links.moving[k] = wall.moving ? in.moving + at : nullptr;
+    links.returned[k] = wall.moving ? in.returned + at : nullptr;
   }
 }
 
@@ -58,8 +60,11 @@ template <class V, class T>
   for (int k = 0; k < links.count; ++k) {
     const V out = load(links.out[k]);
     V change = load(links.weight[k]) * (load(links.partner[k]) - out);
-    if (moving) change = change + V(speed) * load(links.moving[k]);
     imbalance = imbalance - change;
+    if (moving) {
+      imbalance = imbalance - V(speed) * load(links.returned[k]);
+      change = change + V(speed) * load(links.moving[k]);
+    }
     store(out + change, links.back[k]);
   }
   store(load(links.rest) + imbalance, links.rest);
@@ -124,8 +129,12 @@ void reflect_group(const WallInput<T>& in, const WallGroup& group) {
     for (int k = 0; k < links; ++k) {
       const P out = gather(link[k].out, link[k].out_at + n);
       P change = load_float<T>(partner + k * count) * (gather(link[k].partner, link[k].partner_at + n) - out);
-      if (group.moving) change = change + speed * load_float<T>(in.group_moving + group.coefficient + n + k * count);
       imbalance = imbalance - change;
+      if (group.moving) {
+        const std::size_t at = group.coefficient + n + static_cast<std::size_t>(k) * count;
+        imbalance = imbalance - speed * load_float<T>(in.group_returned + at);
+        change = change + speed * load_float<T>(in.group_moving + at);
+      }
       scatter(out + change, link[k].back, link[k].back_at + n);
     }
     scatter(gather(in.f, slot + n) + imbalance, in.f, slot + n);  // the population at rest takes the imbalance

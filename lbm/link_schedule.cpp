@@ -108,7 +108,9 @@ void add_group(const Rows& rows, const Links& links, const std::vector<Item>& ce
       const WallRun& wall = *item.wall;
       const std::size_t at = wall.coefficient + static_cast<std::size_t>(link) * wall.count + item.cell;
       schedule.partner.push_back(links.partner[at]);
-      if (!links.moving.empty()) schedule.moving.push_back(links.moving[at]);
+      if (links.moving.empty()) continue;
+      schedule.moving.push_back(links.moving[at]);
+      schedule.returned.push_back(links.returned[at]);
     }
   }
 }

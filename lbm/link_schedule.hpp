@@ -38,9 +38,9 @@ struct LinkSchedule {
   Waiting waiting_runs;
   std::vector<WallGroup> groups;  // all other wall cells
   Waiting waiting_groups;
-  std::vector<std::int32_t> places;          // of the cells of groups: see WallGroup
-  std::vector<float> partner, moving;        // of the cells of groups, as those of Links
-  std::vector<std::size_t> inlets, outlets;  // per chunk, and one more: first link
+  std::vector<std::int32_t> places;              // of the cells of groups: see WallGroup
+  std::vector<float> partner, moving, returned;  // of the cells of groups, as those of Links
+  std::vector<std::size_t> inlets, outlets;      // per chunk, and one more: first link
 };
 
 LinkSchedule schedule_links(const Rows& rows, const Links& links);

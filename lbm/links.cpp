@@ -10,6 +10,7 @@
 
 #include "lbm/cut_finder.hpp"
 #include "lbm/link_schedule.hpp"
+#include "lbm/moving_walls.hpp"
 #include "lbm/populations.hpp"
 #include "lbm/slip.hpp"
 #include "lbm/wall_sides.hpp"
@@ -158,6 +159,8 @@ Links build_links(const Rows& rows, const LinkGeometry& surface, WallScheme sche
       }
     }
   }
+
+  if (any_moving) carry_along_walls(rows, surface, links);
 
   // Inlets: the mean speed over the cells of the opening is the one asked for. On a grid that does not fit the opening
   // the cells cover a slightly different area; keeping the speed keeps the dynamic head, to which the pressure drop is

@@ -70,6 +70,7 @@ struct Links {
   std::vector<WallRun> walls;                    // in the order of the rows
   std::vector<float> partner;                    // weight of f_own (far) or f_out(x-c); that of f_out is 1 - partner
   std::vector<float> moving;                     // population gained for a unit wall speed; empty when no wall moves
+  std::vector<float> returned;                   // of `moving`, what the cell gives back at once: moving_walls.hpp
   std::vector<std::int16_t> wall_patch;          // per coefficient
   std::vector<OpeningLink> inlets, outlets;      // sorted by slot
   std::shared_ptr<const LinkSchedule> schedule;  // when walls, inlets and outlets are applied
@@ -82,6 +83,14 @@ struct Links {
   };
   std::vector<ThinLink> thin;
   std::vector<SlipLink> slip;  // slip.hpp
+  /// Mass that a sliding wall carries from one cell to the next for a unit wall speed, through the face that `face`
+  /// holds in direction `axis` (face_fluxes.hpp).
+  struct Carried {
+    std::ptrdiff_t face = 0;
+    std::int8_t axis = 0;
+    double mass = 0.0;
+  };
+  std::vector<Carried> carried;
   /// Populations that cross a periodic face: direction, ghost slot, the active slot it mirrors.
   struct Image {
     std::int16_t direction = 0;

@@ -106,7 +106,7 @@ FluxRoutes find_routes(const Air& air, FaceFluxes& fluxes) {
   return routes;
 }
 
-void find_mass_fluxes(const Air& air, const FluxRoutes& routes, FaceFluxes& fluxes) {
+void find_mass_fluxes(const Air& air, const FluxRoutes& routes, double wall_speed, FaceFluxes& fluxes) {
   std::visit(
       [&]<class T>(const Populations<T>& p) {
         FluxInput<T> input;
@@ -140,6 +140,7 @@ void find_mass_fluxes(const Air& air, const FluxRoutes& routes, FaceFluxes& flux
               s.sign * static_cast<double>(p.departed(air.rows.runs()[s.run], s.source, s.direction, last));
       },
       air.populations);
+  for (const Links::Carried& c : air.links.carried) fluxes.mass[c.axis][c.face] += wall_speed * c.mass;
   book_band_fluxes(routes.band, fluxes);
   for (const auto& image : routes.images)
     for (int d = 0; d < 3; ++d) fluxes.mass[d][image.ghost] = fluxes.mass[d][image.active];

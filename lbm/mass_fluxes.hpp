@@ -45,7 +45,7 @@ struct FluxRoutes {
 /// Finds the routes and marks which faces are open; sizes all arrays of `fluxes`.
 FluxRoutes find_routes(const Air& air, FaceFluxes& fluxes);
 
-/// Fluxes of the last step and the density after it.
-void find_mass_fluxes(const Air& air, const FluxRoutes& routes, FaceFluxes& fluxes);
+/// Fluxes of the last step and the density after it. wall_speed: of the walls that moved in it [lattice units].
+void find_mass_fluxes(const Air& air, const FluxRoutes& routes, double wall_speed, FaceFluxes& fluxes);
 
 }  // namespace puffin::lbm

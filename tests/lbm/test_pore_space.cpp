@@ -129,7 +129,7 @@ TEST(PoreSpace, FluxesForScalarsCountAlpha) {
   pore_step(0.5005, air, pores);
   FaceFluxes fluxes;
   const FluxRoutes routes = find_routes(air, fluxes);
-  find_mass_fluxes(air, routes, fluxes);
+  find_mass_fluxes(air, routes, 0.0, fluxes);
   share_fluxes(air, pores, routes, fluxes);
   for (const std::int32_t s : slots) {
     EXPECT_NEAR(fluxes.mass[0][s], q, 5e-3 * q);

@@ -102,7 +102,7 @@ TEST(Slip, MassFluxesBesideSlipWallsBalanceTheChangeOfDensity) {
       for (const auto& run : air.rows.runs())
         for (int n = 0; n < run.count; ++n) before[run.first + n] = moments_at(air, run.first + n).density_excess;
       step(air, 0.6, drive);
-      find_mass_fluxes(air, routes, fluxes);
+      find_mass_fluxes(air, routes, 0.0, fluxes);
       for (const auto& run : air.rows.runs())
         for (int n = 0; n < run.count; ++n) {
           const std::ptrdiff_t s = run.first + n;
