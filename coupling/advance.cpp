@@ -158,12 +158,16 @@ void advance(const Models& models, double until, State& s) {
   follow_air(models, interval, until, s);
 }
 
+static void exchange_air(State& a, State& b) {
+  if (&a == &b) return;
+  std::swap(a.air, b.air);
+  std::swap(a.drive, b.drive);
+}
+
 BorrowedAir::BorrowedAir(State& owner, State& borrower) : owner_(owner), borrower_(borrower) {
-  if (&owner_ != &borrower_) std::swap(owner_.air, borrower_.air);
+  exchange_air(owner_, borrower_);
 }
-BorrowedAir::~BorrowedAir() {
-  if (&owner_ != &borrower_) std::swap(owner_.air, borrower_.air);
-}
+BorrowedAir::~BorrowedAir() { exchange_air(owner_, borrower_); }
 
 void advance_together(std::span<Companion> all, double until) {
   State& owner = *all[0].state;

@@ -15,7 +15,7 @@ struct Companion {
   std::string failure{};  // why it cannot go on: its carriers or fines diverged. The others can.
 };
 
-/// While it lives, `borrower` holds the air of `owner`: to step it, to write it, to look at it.
+/// While it lives, `borrower` holds the air of `owner` and what drives it: to step it, to write it, to look at it.
 class BorrowedAir {
  public:
   BorrowedAir(State& owner, State& borrower);

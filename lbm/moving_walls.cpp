@@ -42,8 +42,10 @@ int direction_of(const std::array<int, 3>& c) {
 }  // namespace
 
 void carry_along_walls(const Rows& rows, const LinkGeometry& surface, Links& links) {
-  const WallLinkIndex index(rows, links);
   links.returned = links.moving;
+  for (const Boundary& b : surface.boundaries)
+    if (b.kind == BoundaryKind::velocity_inlet || b.kind == BoundaryKind::pressure_outlet) return;
+  const WallLinkIndex index(rows, links);
   const auto at_rest = [&](std::ptrdiff_t link) {
     return link >= 0 && !surface.boundaries[links.wall_patch[link]].profile;
   };

@@ -7,7 +7,8 @@
 // the next, so both keep what they got. At the end of the wall, where a wall at rest stands across, nothing is carried
 // on: the link through that edge gains nothing. Without this every cell gave back what it gained, and the flow
 // u dx/6 beside a lid ran on through the corners of its cavity: eddies 1.8 dx/L too weak.
-// What finds no partner (a wall askew to the grid, the end of a wall at an opening) is given back to its cell.
+// What finds no partner (a wall askew to the grid) is given back to its cell; so is all in a domain with openings: what
+// the wall carries would pass them beside their links, and the books of the openings do not know of it.
 // Checked by tests/lbm/test_moving_walls.cpp.
 
 #include "lbm/links.hpp"

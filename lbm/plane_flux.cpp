@@ -20,8 +20,7 @@ double moved_by_walls(const Air& air, int axis, int index, int next) {
         ++k;
         const int sign = d3q19::velocity[i][axis];  // towards the plane
         if (sign == 0 || layer != (sign > 0 ? index : next)) continue;
-        const std::size_t at = wall.coefficient + static_cast<std::size_t>(k) * wall.count + n;
-        moved -= 0.5 * sign * (air.links.moving[at] - air.links.returned[at]);
+        moved -= 0.5 * sign * air.links.moving[wall.coefficient + static_cast<std::size_t>(k) * wall.count + n];
       }
     }
   }
