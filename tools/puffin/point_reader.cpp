@@ -109,6 +109,12 @@ std::optional<PointReading> PointReader::read(const cases::Simulation& s, const 
   }
   PointReading reading;
   reading.pressure = mean.weight > 1e-6 ? mean.reading.pressure : one.reading.pressure;
+  if (one.weight >= whole && two.weight >= whole) {
+    const Mean three = curved_mean(s, near.point + 3.0 * dx * inward);
+    const double p1 = one.reading.pressure, p2 = two.reading.pressure, p3 = three.reading.pressure;
+    reading.pressure = (2.0 - a) * p1 + (a - 1.0) * p2;
+    if (three.weight >= whole) reading.pressure += 0.5 * (a - 1.0) * (a - 2.0) * (p1 - 2.0 * p2 + p3);
+  }
   const Vec3 first = one.reading.velocity - wall, second = two.reading.velocity - wall;
   if (one.weight >= whole && two.weight >= whole)
     reading.velocity = wall + a * (2.0 - a) * first + 0.5 * a * (a - 1.0) * second;
