@@ -36,7 +36,10 @@ std::unique_ptr<Simulation> build(const Case& c, const StoredFieldReader& stored
   s->state.collisions = coupling::Collisions(dem::Carriers{}, s->surface.mesh.triangles.size());
   s->state.fines = coupling::Fines(dem::Carriers{}, 0.0, s->surface.mesh.triangles.size());
   if (c.carriers) build_carriers(*s);
-  if (c.fines) build_fines(*s);
+  if (c.fines)
+    build_fines(*s);
+  else if (s->state.air)
+    s->state.air->links.corner_images.clear();  // only what carries fines reads them
   return s;
 }
 

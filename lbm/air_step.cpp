@@ -21,21 +21,25 @@ namespace {
 
 template <class T>
 void cross_periodic_faces(const Links& links, Parity last, Populations<T>& p) {
-  const auto cross = [&](const Links::Image& image, bool to_ghost) {
-    T* f = p.f.data() + image.direction * p.stride;
-    if (to_ghost)
-      f[image.ghost] = f[image.active];
-    else
-      f[image.active] = f[image.ghost];
+  const auto cross_all = [&](const std::vector<Links::Image>& images, bool to_ghost) {
+    oneapi::tbb::parallel_for(
+        oneapi::tbb::blocked_range<std::size_t>(0, images.size() / 2, 64),
+        [&](const auto& range) {
+          for (std::size_t k = range.begin(); k < range.end(); ++k) {
+            const Links::Image& first = images[2 * k];
+            T* f = p.f.data() + first.direction * p.stride;
+            const std::ptrdiff_t count = images[2 * k + 1].ghost - first.ghost + 1;
+            if (to_ghost)
+              std::copy_n(f + first.active, count, f + first.ghost);
+            else
+              std::copy_n(f + first.ghost, count, f + first.active);
+          }
+        },
+        oneapi::tbb::static_partitioner());
   };
-  // Every image has a place of its own to write; corners read what their faces have written, so they come after.
-  oneapi::tbb::parallel_for(
-      oneapi::tbb::blocked_range<std::size_t>(0, links.images.size(), 2048),
-      [&](const auto& range) {
-        for (std::size_t k = range.begin(); k < range.end(); ++k) cross(links.images[k], last == Parity::even);
-      },
-      oneapi::tbb::static_partitioner());
-  for (const auto& image : links.corner_images) cross(image, true);
+  // Every stretch has places of its own to write; corners read what the faces have written, so they come after.
+  cross_all(links.images, last == Parity::even);
+  cross_all(links.corner_images, true);
 }
 
 /// Half-way reflection on both sides of a wall thinner than a cell: what left each side comes back to it.

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <tuple>
 
 #include "lbm/cut_finder.hpp"
 #include "lbm/link_schedule.hpp"
@@ -30,6 +31,25 @@ struct Interpolation {
 Interpolation interpolation(double q, bool behind_open, bool own_valid) {
   if (q < 0.5) return {false, behind_open ? static_cast<float>(1.0 - 2.0 * q) : 0.0F};
   return {true, own_valid ? static_cast<float>(1.0 - 1.0 / (2.0 * q)) : 0.0F};
+}
+
+/// Sorted, and joined where ghost and active slot advance together: first and last of each stretch. Every image stands
+/// for itself, so their order is free; slices one cell thick are all periodic faces, and copying them cell by cell,
+/// direction after direction, took four fifths of their steps.
+std::vector<Links::Image> in_stretches(std::vector<Links::Image> images) {
+  std::sort(images.begin(), images.end(), [](const auto& a, const auto& b) {
+    return std::tie(a.direction, a.ghost) < std::tie(b.direction, b.ghost);
+  });
+  std::vector<Links::Image> ends;
+  for (const Links::Image& image : images) {
+    const bool joins = !ends.empty() && ends.back().direction == image.direction &&
+                       ends.back().ghost + 1 == image.ghost && ends.back().active + 1 == image.active;
+    if (joins)
+      ends.back() = image;
+    else
+      ends.insert(ends.end(), 2, image);
+  }
+  return ends;
 }
 
 }  // namespace
@@ -202,6 +222,7 @@ Links build_links(const Rows& rows, const LinkGeometry& surface, WallScheme sche
   join_slip_links(rows, links.slip);
   links.schedule = std::make_shared<const LinkSchedule>(schedule_links(rows, links));
 
+  std::vector<Links::Image> images, corners;
   for (const auto& [ghost, active] : rows.periodic_images()) {
     const auto g = rows.cell(ghost);
     for (int i = 1; i < d3q19::q; ++i) {
@@ -210,11 +231,13 @@ Links build_links(const Rows& rows, const LinkGeometry& surface, WallScheme sche
       if (from < 0) continue;
       const bool mirrored = rows.active_slot(g[0] - c[0], g[1] - c[1], g[2] - c[2]) >= 0;
       if (rows.is_active(from))
-        links.images.push_back({static_cast<std::int16_t>(i), ghost, active});
+        images.push_back({static_cast<std::int16_t>(i), ghost, active});
       else if (mirrored)
-        links.corner_images.push_back({static_cast<std::int16_t>(i), ghost, active});
+        corners.push_back({static_cast<std::int16_t>(i), ghost, active});
     }
   }
+  links.images = in_stretches(std::move(images));
+  links.corner_images = in_stretches(std::move(corners));
   return links;
 }
 

@@ -96,8 +96,8 @@ struct Links {
     std::int16_t direction = 0;
     std::ptrdiff_t ghost = 0, active = 0;
   };
-  std::vector<Image> images;
-  std::vector<Image> corner_images;  // between two mirrored cells, where periodic faces meet; read by mass fluxes alone
+  std::vector<Image> images;         // in pairs, first and last of a stretch of neighbouring slots in one direction
+  std::vector<Image> corner_images;  // likewise; between two mirrored cells, at periodic corners; for mass fluxes alone
   std::vector<double> opening_cells_area;  // per boundary: area of the openings on the lattice [dx^2]
   std::size_t missed = 0;                  // links out of the fluid on which no surface was found (taken as q = 1)
 };

@@ -16,9 +16,10 @@ void need(bool enough, const std::string& what) {
 double sum(const std::vector<double>& v) { return std::accumulate(v.begin(), v.end(), 0.0); }
 double mean(const std::vector<double>& v) { return sum(v) / static_cast<double>(v.size()); }
 
-/// The ordinate between the points around x; the points' abscissae rise.
+/// The ordinate between the points around x; the points' abscissae rise, or fall (a profile read downwards).
 double interpolate(const Points& p, double x) {
   need(p.x.size() >= 2, "a value between points needs at least two of them");
+  if (p.x.front() > p.x.back()) return interpolate({{p.x.rbegin(), p.x.rend()}, {p.y.rbegin(), p.y.rend()}}, x);
   const double reach = 1e-9 * (p.x.back() - p.x.front());
   need(x >= p.x.front() - reach && x <= p.x.back() + reach,
        "the abscissa " + std::to_string(x) + " lies outside the points, " + std::to_string(p.x.front()) + " to " +

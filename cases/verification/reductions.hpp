@@ -54,7 +54,7 @@ struct ReductionName {
 const std::vector<ReductionName>& reductions();
 
 /// Throws std::invalid_argument if there are too few points or an argument is missing.
-///   value           linear between the two points around `at`; outside the points it throws
+///   value           linear between the two points around `at`, rising or falling; outside the points it throws
 ///   first, last     ordinate of the first, last point
 ///   mean, sum, count, minimum, maximum, range    of the ordinates
 ///   at-minimum, at-maximum    abscissa of the extremum, from the parabola through it and its neighbours

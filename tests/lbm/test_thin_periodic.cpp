@@ -65,5 +65,21 @@ TEST(ThinPeriodic, OneCellIsAsGoodAsManyInEveryDirection) {
     }
 }
 
+// A slice of 10 x 10 cells between walls, periodic across: of the ten directions across it two stay in the column and
+// eight lean by a cell, so 2 x 100 + 8 x 90 populations cross. They are copied by rows: ten rows in the six directions
+// that do not lean across rows, nine in the other four.
+TEST(ThinPeriodic, FacesAreCrossedRowByRow) {
+  std::array<Boundary, 6> faces;
+  faces.fill(wall());
+  faces[2] = faces[3] = periodic();
+  BoxScene scene = make_box(Vec3(10, 1, 10), 1.0, faces);
+  const Air air = make_air(scene, {});
+  std::ptrdiff_t crossing = 0;
+  for (std::size_t k = 0; k < air.links.images.size(); k += 2)
+    crossing += air.links.images[k + 1].ghost - air.links.images[k].ghost + 1;
+  EXPECT_EQ(crossing, 2 * 100 + 8 * 90);
+  EXPECT_EQ(air.links.images.size() / 2, 6u * 10u + 4u * 9u);
+}
+
 }  // namespace
 }  // namespace puffin::lbm::test

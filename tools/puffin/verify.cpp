@@ -8,6 +8,7 @@
 #include "cases/search_path.hpp"
 #include "cases/spelling.hpp"
 #include "tools/output/output_folder.hpp"
+#include "tools/output/summary.hpp"
 #include "tools/puffin/commands.hpp"
 #include "tools/puffin/console.hpp"
 #include "tools/puffin/exit_codes.hpp"
@@ -20,7 +21,7 @@ namespace {
 struct VerifyArguments {
   std::vector<std::string> suites, only, sets;
   std::filesystem::path catalogue, out;
-  bool quick = false, json = false;
+  bool quick = false, resume = false, json = false;
 };
 
 /// A folder for the runs: the user's, kept; or a temporary one, removed at the end.
@@ -72,9 +73,10 @@ struct Stopped {
   int code;
 };
 
-/// Makes a run; an exception or an exit code other than 0 leaves it without output, and is told.
+/// Makes a run; an exception or an exit code other than 0 leaves it without output, and is told. With `resume`, a
+/// finished run in the folder is read as it is and an unfinished one goes on.
 std::optional<cases::RunOutput> make_run(const cases::VerificationRun& run, const std::vector<cases::Override>& sets,
-                                         const std::filesystem::path& folder, const std::string& label) {
+                                         const std::filesystem::path& folder, const std::string& label, bool resume) {
   RunOptions options;
   options.case_file = run.case_file;
   options.sets = run.sets;
@@ -82,7 +84,11 @@ std::optional<cases::RunOutput> make_run(const cases::VerificationRun& run, cons
   options.out = folder;
   options.quiet = true;
   options.report = false;
+  options.resume = resume && std::filesystem::exists(folder / "status.json");
   try {
+    const auto summary = folder / "summary.json";
+    if (options.resume && std::filesystem::exists(summary) && output::read_summary(summary).state == "finished")
+      return read_run(folder);
     const int code = run_command(options);
     if (code == interrupted || code == stopped) throw Stopped{code};
     if (code == ok) return read_run(folder);
@@ -103,7 +109,7 @@ std::vector<VerifyRow> verify_case(const cases::Verification& v, const VerifyArg
       return std::find(names.begin(), names.end(), run.name) != names.end();
     });
     if (!needed) continue;
-    if (auto output = make_run(run, sets, place.run(v.id, run.name), v.id + ", run " + run.name))
+    if (auto output = make_run(run, sets, place.run(v.id, run.name), v.id + ", run " + run.name, a.resume))
       outputs[run.name] = *std::move(output);
   }
   set_up_log(false);  // the runs are quiet
@@ -136,7 +142,14 @@ void check_names(const std::vector<cases::Verification>& catalogue, const Verify
     if (!matches(id, ids)) throw UsageError("there is no case '" + id + "'; the cases are " + cases::join(ids));
 }
 
+void write_tables(const std::filesystem::path& out, const std::vector<VerifyRow>& rows) {
+  write_csv(out / "verify.csv", rows);
+  output::write_whole(out / "verify.md", to_markdown(rows));
+  output::write_whole(out / "verify.json", to_json(rows) + "\n");
+}
+
 int verify(const VerifyArguments& a) try {
+  if (a.resume && a.out.empty()) throw UsageError("--resume goes on in the folder of --out, which is not given");
   std::vector<cases::Override> sets;
   for (const std::string& text : a.sets) try {
       sets.push_back(cases::parse_override(text));
@@ -156,13 +169,9 @@ int verify(const VerifyArguments& a) try {
       rows.push_back(row);
       if (!a.json) print(to_text(row));
     }
+    if (!a.out.empty()) write_tables(a.out, rows);  // after each case: a suite that is stopped keeps what it found
   }
   const auto failed = std::count_if(rows.begin(), rows.end(), [](const VerifyRow& r) { return !r.outcome.pass; });
-  if (!a.out.empty()) {
-    write_csv(a.out / "verify.csv", rows);
-    output::write_whole(a.out / "verify.md", to_markdown(rows));
-    output::write_whole(a.out / "verify.json", to_json(rows) + "\n");
-  }
   if (a.json)
     print(to_json(rows));
   else
@@ -186,6 +195,8 @@ Command verify() {
                 ->type_name("DIR");
             app.add_option("--out", a->out, "keep the runs here, with verify.csv, verify.json and the table verify.md")
                 ->type_name("DIR");
+            app.add_flag("--resume", a->resume,
+                         "go on in the folder of --out: finished runs there are judged as they are");
             app.add_flag("--json", a->json, "one JSON object on stdout");
             return [a] { return puffin::tools::verify(*a); };
           }};

@@ -40,6 +40,15 @@ TEST(Reductions, OfFewPointsAreThoseByHand) {
   EXPECT_EQ(reduce(Reduction::at_minimum, p), 3.0);
 }
 
+// A profile may be read from the lid downwards: the points are the same, in the other order.
+TEST(Reductions, PointsMayFall) {
+  const Points down{{3.0, 1.0, 0.0}, {-2.0, 6.0, 2.0}};
+  EXPECT_EQ(reduce(Reduction::value, down, {.at = 2.0}), 2.0);
+  EXPECT_EQ(reduce(Reduction::value, down, {.at = 0.0}), 2.0);
+  EXPECT_EQ(reduce(Reduction::max_error, down, {.exact = {{0.5, 2.0}, {4.0, 2.5}}}), 0.5);
+  EXPECT_THROW(reduce(Reduction::value, down, {.at = 3.1}), std::invalid_argument);
+}
+
 // The parabola through three points of a parabola is that parabola: exact but for rounding, on uneven points too.
 TEST(Reductions, ParabolasAreFoundExactly) {
   const auto g = [](double x) { return -2.0 * (x - 0.3) * (x - 1.7); };
