@@ -140,6 +140,7 @@ void build_fines(Simulation& s) {
     coupling::set_frozen_fluxes(air.rows, s.state.routes, s.state.scale, s.models.frozen_air, s.state.fluxes);
   const Numerics& n = s.description.numerics;
   s.models.scalars.cfl = n.scalar_cfl;
+  s.models.scalars.single = !s.models.frozen_air && n.precision == Precision::float32;  // as the fluxes are
   s.models.scalars.skip_empty = n.skip.empty_cells;
   s.models.idle_transport = n.skip.idle_transport;
   s.models.transport_steps = n.skip.transport_steps;

@@ -78,13 +78,33 @@ template <class T, class Body>
   if (count % width<T> != 0) pack(count - width<T>, width<T>);
 }
 
-/// The first `cells` lanes as doubles.
+/// The first `cells` lanes as doubles, each with `more` on top.
 template <class T>
-[[gnu::always_inline]] inline void store(const Pack<T>& v, int cells, double* to) {
+[[gnu::always_inline]] inline void store(const Pack<T>& v, int cells, double* to, double more = 0.0) {
   Lanes<T, width<T>> plain;
   __builtin_memcpy(&plain, &v, sizeof plain);
-  if (cells == width<T>) return store_doubles<width<T>>(plain, to);
-  for (int l = 0; l < cells; ++l) to[l] = plain[l];
+  if (cells == width<T>) return store_doubles<width<T>>(plain, to, more);
+  for (int l = 0; l < cells; ++l) to[l] = more + plain[l];
+}
+
+/// The code of a face all of whose eight diagonal links go half through it.
+constexpr int every_link_half = 0x5555;
+
+template <class T>
+[[gnu::always_inline]] inline bool all_equal(const Lanes<int, width<T>>& v, int wanted) {
+#ifdef __AVX512F__
+  if constexpr (width<T> == 16)
+    return _mm512_cmpneq_epi32_mask(reinterpret_cast<__m512i>(v), _mm512_set1_epi32(wanted)) == 0;
+#endif
+#ifdef __AVX2__
+  if constexpr (width<T> == 8) {
+    const __m256i different = _mm256_xor_si256(reinterpret_cast<__m256i>(v), _mm256_set1_epi32(wanted));
+    return _mm256_testz_si256(different, different) != 0;
+  }
+#endif
+  int different = 0;
+  for (int l = 0; l < width<T>; ++l) different |= v[l] ^ wanted;
+  return different == 0;
 }
 
 template <class T, int D>
@@ -114,10 +134,15 @@ void face_fluxes_of_run(const FluxInput<T>& in, const Run& run) {
       run.count, [&](int n, int cells) __attribute__((always_inline)) {
         Pack<T> sum = load(axis_to + n) - load(axis_from + n);
         const auto halves = widen<width<T>>(routes + n);  // of each link, 2 bits each
+        if (all_equal<T>(halves, every_link_half)) {      // away from walls
 #pragma GCC unroll 8
-        for (int j = 0; j < 8; ++j) {
-          const Pack<T> share = pack_of_small<T>((halves >> (2 * j)) & 3);
-          sum = sum + Pack<T>(T(0.5)) * share * (load(to[j] + n) - load(from[j] + n));
+          for (int j = 0; j < 8; ++j) sum = sum + Pack<T>(T(0.5)) * (load(to[j] + n) - load(from[j] + n));
+        } else {
+#pragma GCC unroll 8
+          for (int j = 0; j < 8; ++j) {
+            const Pack<T> share = pack_of_small<T>((halves >> (2 * j)) & 3);
+            sum = sum + Pack<T>(T(0.5)) * share * (load(to[j] + n) - load(from[j] + n));
+          }
         }
         const auto passes = widen<width<T>>(open + n) & 1;  // 0 where closed or an opening
         store<T>(sum * Pack<T>(sign) * pack_of_small<T>(passes), cells, mass + n);
@@ -138,8 +163,7 @@ void density_of_run(const FluxInput<T>& in, const Run& run) {
       run.count, [&](int n, int cells) __attribute__((always_inline)) {
         Pack<T> sum = load(arrived[0] + n);
         for (int i = 1; i < 19; ++i) sum = sum + load(arrived[i] + n);
-        store<T>(sum, cells, density + n);
-        for (int l = 0; l < cells; ++l) density[n + l] += 1.0;
+        store<T>(sum, cells, density + n, 1.0);
       });
 }
 

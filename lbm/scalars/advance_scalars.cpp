@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "lbm/flush_to_zero.hpp"
 #include "lbm/scalars/busy_runs.hpp"
@@ -35,17 +36,20 @@ bool always_diffuses_last(const ScalarOptions& options, int k, double steps) {
 }
 
 /// What does not change during one update.
+template <class Real>
 struct Update {
   const Rows& rows;
   const FaceFluxes& fluxes;
   const ScalarOptions& options;
+  const std::vector<double>& resting;  // of the sub-step: busy_runs.hpp
   ScalarFields& fields;
   ScalarBudget& budget;
 
   const std::vector<int>& moving() const { return fields.work.moving; }
-  double* concentration(int k) const { return fields.work.concentration.data() + k * rows.slots(); }
-  double* out_high(int k) const { return fields.work.out_high.data() + k * rows.slots(); }
-  double* out_low(int k) const { return fields.work.out_low.data() + k * rows.slots(); }
+  Real* concentration(int k) const { return scratch().concentration.data() + k * rows.slots(); }
+  Real* out_high(int k) const { return scratch().out_high.data() + k * rows.slots(); }
+  Real* out_low(int k) const { return scratch().out_low.data() + k * rows.slots(); }
+  ScalarScratch<Real>& scratch() const { return fields.work.scratch<Real>(); }
 
   /// Calls visit(run, index) for all computed runs, chunk by chunk in parallel. `prepare` makes what a chunk shares.
   template <class Visit>
@@ -53,14 +57,15 @@ struct Update {
     const auto& chunks = rows.chunks();
     tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {
       const FlushToZero flush;
-      std::vector<SweepScalar> scalars(moving().size());
+      std::vector<SweepScalar<Real>> scalars(moving().size());
       for (int r = chunks[c].first_run; r < chunks[c].last_run; ++r)
         if (fields.work.computed[r]) visit(rows.runs()[r], scalars);
     });
   }
 };
 
-void check(const Update& u, double steps) {
+template <class Real>
+void check(const Update<Real>& u, double steps) {
   if (!(steps >= 0.0) || !std::isfinite(steps))
     throw std::invalid_argument("scalars: the number of air steps must be >= 0");
   if (u.options.scalar.size() != u.fields.amount.size() || u.budget.left.size() != u.fields.amount.size())
@@ -85,24 +90,60 @@ void check(const Update& u, double steps) {
   u.fields.work.checked = true;
 }
 
-/// How far the carried air is from the lattice's, where it was carried last.
-double air_mismatch(const Update& u) {
-  std::vector<double> worst(u.rows.runs().size(), 0.0);
-  u.for_each_run([&](const Run& run, auto&) {
-    double most = 0.0;
-    for (std::ptrdiff_t s = run.first; s < run.first + run.count; ++s)
-      most = std::max(most, std::abs(u.fields.air[s] - u.fluxes.density[s]) / u.fluxes.density[s]);
-    worst[u.fields.work.run_of[run.first]] = most;
+/// What the runs hold and ask for, found in one pass over all of them.
+struct Survey {
+  RunContents contents;            // of every scalar
+  std::vector<LimitFound> limits;  // by the density of the air
+  double air_mismatch = 0.0;       // how far the carried air is from the lattice's, where it was carried last
+};
+
+template <class Real>
+Survey survey(const Update<Real>& u, const SweepKernel& kernel) {
+  const std::size_t runs = u.rows.runs().size();
+  Survey found{RunContents(u.fields.amount.size(), std::vector<Content>(runs)), std::vector<LimitFound>(runs), 0.0};
+  std::vector<double> off(runs, 0.0);
+  const auto& chunks = u.rows.chunks();
+  tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {
+    for (int r = chunks[c].first_run; r < chunks[c].last_run; ++r) {
+      const Run& run = u.rows.runs()[r];
+      const double* density = u.fluxes.density.data() + run.first;
+      for (std::size_t k = 0; k < found.contents.size(); ++k)
+        found.contents[k][r] = kernel.content(run.count, u.fields.amount[k].data() + run.first);
+      found.limits[r] = kernel.limit(faces_of(run, u.fluxes, density, u.options.cfl));
+      if (u.fields.work.computed[r]) off[r] = kernel.mismatch(run.count, u.fields.air.data() + run.first, density);
+    }
   });
-  double most = 0.0;
-  for (const double w : worst) most = std::max(most, w);
-  return most;
+  for (const double o : off) found.air_mismatch = std::max(found.air_mismatch, o);
+  return found;
+}
+
+template <class Real>
+void find_contents(const Update<Real>& u, const SweepKernel& kernel, RunContents& contents) {
+  u.for_each_run([&](const Run& run, auto&) {
+    for (const int k : u.moving())
+      contents[k][u.fields.work.run_of[run.first]] = kernel.content(run.count, u.fields.amount[k].data() + run.first);
+  });
+}
+
+/// Concentrations of a run by the air that is there.
+template <class Real>
+void find_concentrations(const Update<Real>& u, const SweepKernel& kernel, const Run& run,
+                         std::vector<SweepScalar<Real>>& views) {
+  for (std::size_t n = 0; n < views.size(); ++n) {
+    const int k = u.moving()[n];
+    views[n].resting = u.resting[k];
+    views[n].amount = u.fields.amount[k].data() + run.first;
+    views[n].concentration = u.concentration(k) + run.first;
+  }
+  kernel.of<Real>().concentrate(run.count, u.fields.air.data() + run.first, views.data(),
+                                static_cast<int>(views.size()));
 }
 
 /// theta = density - elapsed * (net outflow), and the concentrations. The fluxes are constant during an update, so the
 /// air of a run that joins later needs no history.
-void prepare(const Update& u, double elapsed) {
-  u.for_each_run([&](const Run& run, auto&) {
+template <class Real>
+void prepare(const Update<Real>& u, const SweepKernel& kernel, double elapsed) {
+  u.for_each_run([&](const Run& run, auto& views) {
     double* air = u.fields.air.data();
     for (std::ptrdiff_t s = run.first; s < run.first + run.count; ++s) air[s] = u.fluxes.density[s];
     if (elapsed > 0.0)
@@ -113,17 +154,13 @@ void prepare(const Update& u, double elapsed) {
         for (std::ptrdiff_t s = run.first; s < run.first + run.count; ++s)
           air[s] -= elapsed * ((open[s] ? mass[s] : 0.0) - (open[s + low] ? mass[s + low] : 0.0));
       }
-    for (const int k : u.moving()) {
-      const double* amount = u.fields.amount[k].data();
-      double* y = u.concentration(k);
-      for (std::ptrdiff_t s = run.first; s < run.first + run.count; ++s)
-        y[s] = amount[s] > dust ? amount[s] / air[s] : 0.0;
-    }
+    find_concentrations(u, kernel, run, views);
   });
 }
 
 /// What the closed faces of absorbing walls take, before the sweep; books it by cell.
-void absorb(const Update& u, int d, const Run& run, int k, double exchange) {
+template <class Real>
+void absorb(const Update<Real>& u, int d, const Run& run, int k, double exchange) {
   const std::uint8_t* open = u.fluxes.open[d].data();
   const std::ptrdiff_t low = offset_low(run, d);
   for (std::ptrdiff_t s = run.first; s < run.first + run.count; ++s) {
@@ -134,35 +171,56 @@ void absorb(const Update& u, int d, const Run& run, int k, double exchange) {
 }
 
 /// Gives the openings of direction d what they bring, and books both ways. In the order of the faces, serial.
-void exchange_openings(const Update& u, int d, double steps, const std::vector<double>& exchange) {
+template <class Real>
+void exchange_openings(const Update<Real>& u, int d, double steps, const std::vector<double>& exchange) {
   for (const auto& face : u.fields.work.openings[d]) {
     const std::ptrdiff_t at = face.ghost_is_high ? face.cell : face.ghost;
     if (u.fluxes.open[d][at] != 2) continue;
     const double flux = steps * u.fluxes.mass[d][at];
     const double inflow = std::max(face.ghost_is_high ? -flux : flux, 0.0);
     for (const int k : u.moving()) {
-      double& out = face.ghost_is_high ? u.out_high(k)[face.cell] : u.out_low(k)[face.cell];
-      double& in = face.ghost_is_high ? u.out_low(k)[face.ghost] : u.out_high(k)[face.ghost];
+      Real& out = face.ghost_is_high ? u.out_high(k)[face.cell] : u.out_low(k)[face.cell];
+      Real& in = face.ghost_is_high ? u.out_low(k)[face.ghost] : u.out_high(k)[face.ghost];
       const auto value = fixed_value(u.options.scalar[k], face.patch);
-      if (value) out += 2.0 * exchange[k] * u.concentration(k)[face.cell];
-      in = value ? (inflow + 2.0 * exchange[k]) * *value : 0.0;
+      if (value) out += static_cast<Real>(2.0 * exchange[k] * u.concentration(k)[face.cell]);
+      in = static_cast<Real>(value ? (inflow + 2.0 * exchange[k]) * *value : 0.0);
       if (out > 0.0) u.budget.left[k][face.patch].add(out);
       if (in > 0.0) u.budget.entered[k][face.patch].add(in);
     }
   }
 }
 
-void sweep(const Update& u, const SweepKernel& kernel, int d, double steps, const std::vector<double>& exchange,
-           bool drifts) {
+/// What leaves the cells of a run that has no other beside it: nobody else asks, so it stays in the cache.
+template <class Real>
+class OwnOutflow {
+ public:
+  void hold(int count, std::vector<SweepScalar<Real>>& views) {
+    const std::size_t room = static_cast<std::size_t>(count) + 2 + Rows::padding;
+    values_.assign(2 * room * views.size(), Real(0));
+    Real* next = values_.data() + 1;  // nothing comes from before the first cell or from behind the last
+    for (auto& v : views) {
+      v.out_high = std::exchange(next, next + room);
+      v.out_low = std::exchange(next, next + room);
+    }
+  }
+
+ private:
+  std::vector<Real> values_;
+};
+
+template <class Real>
+void sweep(const Update<Real>& u, const RunSweep<Real>& kernel, int d, double steps,
+           const std::vector<double>& exchange, bool drifts, bool last) {
   if (u.rows.box()[d] == 1 && u.rows.periodic()[d]) return;  // one cell, its own neighbour
   const ScalarWork& work = u.fields.work;
   const std::vector<int>& moving = u.moving();
   const int scalars = static_cast<int>(moving.size());
-  const auto view = [&](const Run& run, std::vector<SweepScalar>& views) {
+  const auto view = [&](const Run& run, std::vector<SweepScalar<Real>>& views) {
     for (int n = 0; n < scalars; ++n) {
       const int k = moving[n];
       views[n] = {u.options.scalar[k].scheme,
                   exchange[k],
+                  u.resting[k],
                   u.fields.amount[k].data() + run.first,
                   u.concentration(k) + run.first,
                   u.out_high(k) + run.first,
@@ -180,21 +238,30 @@ void sweep(const Update& u, const SweepKernel& kernel, int d, double steps, cons
   };
   for (const int k : moving)
     for (const auto& [ghost, cell] : work.periodic[d]) u.concentration(k)[ghost] = u.concentration(k)[cell];
-  const auto update = [&](const Run& run, std::vector<SweepScalar>& views) {
-    kernel.update(view(run, views), views.data(), scalars);
+  const auto take_and_give = [&](const SweepRun& faces, std::vector<SweepScalar<Real>>& views) {
+    if (last)  // the next update finds the concentrations anew
+      for (auto& v : views) v.concentration = nullptr;
+    kernel.update(faces, views.data(), scalars);
+  };
+  const auto update = [&](const Run& run, std::vector<SweepScalar<Real>>& views) {
+    take_and_give(view(run, views), views);
   };
   // Runs whose neighbours are all in their own chunk are finished while they are still in the cache.
   const auto& chunks = u.rows.chunks();
   tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {
     const FlushToZero flush;
-    std::vector<SweepScalar> views(scalars);
+    std::vector<SweepScalar<Real>> views(scalars);
+    OwnOutflow<Real> own;
     for (int r = chunks[c].first_run; r < chunks[c].last_run; ++r) {
       if (!work.computed[r]) continue;
       const Run& run = u.rows.runs()[r];
-      kernel.outgoing(view(run, views), views.data(), scalars);
+      const SweepRun faces = view(run, views);
+      const bool alone = d == 0 && work.local[d][r];  // no other run lies beside it in x
+      if (alone) own.hold(run.count, views);
+      kernel.outgoing(faces, views.data(), scalars);
       for (const int k : moving)
         if (u.options.scalar[k].wall == WallRule::absorb && exchange[k] > 0.0) absorb(u, d, run, k, exchange[k]);
-      if (d == 0 && work.local[d][r]) update(run, views);  // no other run lies beside it in x
+      if (alone) take_and_give(faces, views);
     }
     for (int r = chunks[c].first_run; r < chunks[c].last_run; ++r)
       if (d != 0 && work.computed[r] && work.local[d][r]) update(u.rows.runs()[r], views);
@@ -205,7 +272,7 @@ void sweep(const Update& u, const SweepKernel& kernel, int d, double steps, cons
       u.out_low(k)[ghost] = u.out_low(k)[cell];
     }
   exchange_openings(u, d, steps, exchange);
-  u.for_each_run([&](const Run& run, std::vector<SweepScalar>& views) {
+  u.for_each_run([&](const Run& run, std::vector<SweepScalar<Real>>& views) {
     if (!work.local[d][work.run_of[run.first]]) update(run, views);
   });
   for (const int k : moving) {  // a ghost may lie beside other cells in the other directions
@@ -214,33 +281,31 @@ void sweep(const Update& u, const SweepKernel& kernel, int d, double steps, cons
   }
 }
 
-}  // namespace
-
-double advance_scalars(const Rows& rows, const FaceFluxes& fluxes, double steps, const ScalarOptions& options,
-                       ScalarFields& fields, ScalarBudget& budget) {
-  const Update u{rows, fluxes, options, fields, budget};
+template <class Real>
+double advance(const Rows& rows, const FaceFluxes& fluxes, double steps, const ScalarOptions& options,
+               ScalarFields& fields, ScalarBudget& budget) {
+  std::vector<double> resting;
+  const Update<Real> u{rows, fluxes, options, resting, fields, budget};
   check(u, steps);
   static const SweepKernel kernel = select_sweep();
+  for (auto* scratch : {&u.scratch().concentration, &u.scratch().out_high, &u.scratch().out_low})
+    scratch->resize(rows.slots() * static_cast<std::size_t>(fields.scalars()));
   bool all = !options.skip_empty;
   for (const ScalarLaw& law : options.scalar)
     for (const auto& value : law.fixed) all = all || (value && *value > 0.0);
 
-  mark_moving_scalars(rows, options, fields);
+  auto [contents, limits, air_mismatch] = survey(u, kernel);
+  mark_moving_scalars(options, contents, fields);
   const double eddy = largest_eddy(fluxes);
-  budget.air_mismatch = std::max(budget.air_mismatch, air_mismatch(u));
-  std::vector<LimitFound> limits;
-  double allowed = 0.0, share = steps;
-  const auto found = [&] { return limits.empty() ? max_steps(rows, fluxes, options.cfl) : allowed; };
+  budget.air_mismatch = std::max(budget.air_mismatch, air_mismatch);
+  const double allowed = strictest(limits, options.cfl, {}).steps;  // of all runs, for the caller
+  const double share = steps / std::max(1.0, std::ceil(steps / allowed * (1.0 - 1e-12)));
   for (double elapsed = 0.0; elapsed < steps;) {
-    if (!mark_busy_runs(rows, all, fields)) return found();
-    prepare(u, elapsed);
-    if (elapsed == 0.0) {  // of all runs, for the caller
-      find_limits(rows, fluxes, fluxes.density, options.cfl, {}, limits);
-      allowed = strictest(limits, options.cfl, {}).steps;
-      share = steps / std::max(1.0, std::ceil(steps / allowed * (1.0 - 1e-12)));
-    } else {
-      find_limits(rows, fluxes, fields.air, options.cfl, fields.work.computed, limits);
-    }
+    if (elapsed > 0.0) find_contents(u, kernel, contents);
+    resting = find_resting(contents);
+    if (!mark_busy_runs(rows, all, contents, resting, fields)) return allowed;
+    prepare(u, kernel, elapsed);
+    if (elapsed > 0.0) find_limits(rows, fluxes, fields.air, options.cfl, fields.work.computed, limits);
     SubStep p = plan_sub_step(strictest(limits, options.cfl, fields.work.computed), options, u.moving(), eddy, share,
                               steps - elapsed);
     if (p.any_implicit && !all) {  // lines carry it everywhere at once
@@ -254,7 +319,7 @@ double advance_scalars(const Rows& rows, const FaceFluxes& fluxes, double steps,
     for (const int k : u.moving()) exchange[k] = p.implicit[k] ? 0.0 : p.steps * options.scalar[k].diffusivity;
     const auto sweep_all = [&] {
       for (int n = 0; n < 3; ++n)
-        sweep(u, kernel, fields.reversed ? 2 - n : n, p.steps, exchange, drifts && !p.any_implicit);
+        sweep(u, kernel.of<Real>(), fields.reversed ? 2 - n : n, p.steps, exchange, drifts && !p.any_implicit, n == 2);
     };
     const auto diffuse_all = [&](bool before) {
       for (int n = 0; n < 3; ++n)
@@ -264,6 +329,8 @@ double advance_scalars(const Rows& rows, const FaceFluxes& fluxes, double steps,
     };
     // Mirrored from one sub-step to the next, which makes two of them second order in time.
     diffuse_all(true);
+    if (p.any_implicit)
+      u.for_each_run([&](const Run& run, auto& views) { find_concentrations(u, kernel, run, views); });
     sweep_all();
     diffuse_all(false);
     take_at_walls(fluxes, p.steps, u.moving(), fields, budget);
@@ -273,7 +340,15 @@ double advance_scalars(const Rows& rows, const FaceFluxes& fluxes, double steps,
       (fields.work.computed[r] ? budget.cells_computed : budget.cells_skipped) += rows.runs()[r].count;
     elapsed = p.steps < steps - elapsed ? elapsed + p.steps : steps;
   }
-  return found();
+  return allowed;
+}
+
+}  // namespace
+
+double advance_scalars(const Rows& rows, const FaceFluxes& fluxes, double steps, const ScalarOptions& options,
+                       ScalarFields& fields, ScalarBudget& budget) {
+  return options.single ? advance<float>(rows, fluxes, steps, options, fields, budget)
+                        : advance<double>(rows, fluxes, steps, options, fields, budget);
 }
 
 }  // namespace puffin::lbm

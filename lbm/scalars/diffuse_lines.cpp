@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "lbm/scalars/run_faces.hpp"
+#include "lbm/scalars/sweep.hpp"
 
 namespace puffin::lbm {
 
@@ -84,7 +85,8 @@ void diffuse_lines(const Rows& rows, const FaceFluxes& fluxes, int d, int scalar
   if (rows.box()[d] == 1 && rows.periodic()[d]) return;
   ScalarWork& work = fields.work;
   std::vector<double>& amount = fields.amount[scalar];
-  double* y = work.concentration.data() + scalar * rows.slots();
+  work.seen.resize(rows.slots());
+  double* y = work.seen.data();
   const bool absorbs = law.wall == WallRule::absorb;
   const auto low = [&](std::ptrdiff_t s) { return s + offset_low(rows.runs()[work.run_of[s]], d); };
   const auto high = [&](std::ptrdiff_t s) { return s + offset_high(rows.runs()[work.run_of[s]], d); };
@@ -106,6 +108,7 @@ void diffuse_lines(const Rows& rows, const FaceFluxes& fluxes, int d, int scalar
       high_face.assign(n, {});
       for (std::size_t i = 0; i < n; ++i) {
         const std::ptrdiff_t s = slot[i], below = low(s);
+        y[s] = amount[s] > dust ? amount[s] / fields.air[s] : 0.0;
         if (absorbs) system.diag[i] += 2.0 * exchange * ((fluxes.open[d][below] == 0) + (fluxes.open[d][s] == 0));
         system.right[i] = amount[s];
         for (const double* value : {held(below, below), held(s, high(s))}) {
@@ -162,11 +165,6 @@ void diffuse_lines(const Rows& rows, const FaceFluxes& fluxes, int d, int scalar
     budget.left[scalar][face.patch].add(out);
     budget.entered[scalar][face.patch].add(in);
   }
-  tbb::parallel_for(std::size_t{0}, rows.chunks().size(), [&](std::size_t c) {
-    for (int r = rows.chunks()[c].first_run; r < rows.chunks()[c].last_run; ++r)
-      for (std::ptrdiff_t s = rows.runs()[r].first; s < rows.runs()[r].first + rows.runs()[r].count; ++s)
-        y[s] = amount[s] / fields.air[s];
-  });
 }
 
 }  // namespace puffin::lbm

@@ -9,17 +9,28 @@ enum class Scheme { upwind, minmod, van_leer, mc };
 
 // Each law takes the differences to the low and to the high neighbour and gives the rise across the cell. All of them
 // have the sign of both differences, or are 0, and are at most twice the smaller one, which is what the proof of
-// monotonicity in sweep.hpp needs. V is a double, or the compiler's vector of several: for both a selection is written
-// c ? x : y. Always inlined, so that code compiled for a newer processor cannot leak out of its file.
+// monotonicity in sweep.hpp needs. Differences are never multiplied with each other: the product of two small ones
+// would be 0 in float. V is a float or a double, or the compiler's vector of several: for all of them a selection is
+// written c ? x : y. Always inlined, so that code compiled for a newer processor cannot leak out of its file.
 
 namespace detail {
+/// The number x in every lane.
+template <class V>
+[[gnu::always_inline]] inline V spread(double x) {
+  if constexpr (std::is_floating_point_v<V>)
+    return static_cast<V>(x);
+  else
+    return V{} + static_cast<std::remove_cvref_t<decltype(V{}[0])>>(x);
+}
 template <class V>
 [[gnu::always_inline]] inline V magnitude(V x) {
   if constexpr (std::is_floating_point_v<V>) {
-    return __builtin_fabs(x);
+    return static_cast<V>(__builtin_fabs(x));
   } else {
     using Bits = decltype(x < x);  // integers of the same size
-    return reinterpret_cast<V>(reinterpret_cast<Bits>(x) & 0x7fffffffffffffffLL);
+    constexpr auto all_but_sign = sizeof(V{}[0]) == 4 ? 0x7fffffffLL : 0x7fffffffffffffffLL;
+    using Bit = std::remove_cvref_t<decltype(Bits{}[0])>;
+    return reinterpret_cast<V>(reinterpret_cast<Bits>(x) & static_cast<Bit>(all_but_sign));
   }
 }
 template <class V>
@@ -29,6 +40,12 @@ template <class V>
 template <class V>
 [[gnu::always_inline]] inline V larger(V x, V y) {
   return x > y ? x : y;
+}
+/// Two numbers that are not 0 have the same sign.
+template <class V>
+[[gnu::always_inline]] inline auto alike(V x, V y) {
+  const V none{};
+  return (x > none) == (y > none);
 }
 }  // namespace detail
 
@@ -44,8 +61,8 @@ struct Upwind {
 struct Minmod {
   template <class V>
   [[gnu::always_inline]] static V slope(V low, V high) {
-    const V least = detail::magnitude(low) < detail::magnitude(high) ? low : high;
-    return low * high > 0.0 ? least : V{};
+    const V least = detail::magnitude(low) < detail::magnitude(high) ? low : high;  // 0 if one of them is
+    return detail::alike(low, high) ? least : V{};
   }
 };
 
@@ -53,9 +70,10 @@ struct Minmod {
 struct VanLeer {
   template <class V>
   [[gnu::always_inline]] static V slope(V low, V high) {
-    const V product = low * high;
-    const V sum = product > 0.0 ? low + high : V{} + 1.0;
-    return 2.0 * (product > 0.0 ? product : V{}) / sum;
+    const V smaller = detail::magnitude(low) < detail::magnitude(high) ? low : high;
+    const V greater = detail::magnitude(low) < detail::magnitude(high) ? high : low;
+    const V sum = smaller != V{} ? low + high : detail::spread<V>(1.0);
+    return detail::alike(low, high) ? detail::spread<V>(2.0) * smaller * (greater / sum) : V{};
   }
 };
 
@@ -64,8 +82,9 @@ struct MonotonizedCentral {
   template <class V>
   [[gnu::always_inline]] static V slope(V low, V high) {
     const V least = detail::smaller(detail::magnitude(low), detail::magnitude(high));
-    const V rise = detail::smaller(2.0 * least, 0.5 * detail::magnitude(low + high));
-    return low * high > 0.0 ? (low > 0.0 ? rise : -rise) : V{};
+    const V rise =
+        detail::smaller(detail::spread<V>(2.0) * least, detail::spread<V>(0.5) * detail::magnitude(low + high));
+    return detail::alike(low, high) ? (low > V{} ? rise : -rise) : V{};
   }
 };
 

@@ -13,6 +13,17 @@
 
 namespace puffin::lbm {
 
+LimitRun faces_of(const Run& run, const FaceFluxes& fluxes, const double* air_of_run, double cfl) {
+  LimitRun faces{run.count, {}, {}, {}, air_of_run, cfl};
+  for (int d = 0; d < 3; ++d) {
+    faces.mass[d] = fluxes.mass[d].data() + run.first;
+    if (!fluxes.drift[d].empty()) faces.drift[d] = fluxes.drift[d].data() + run.first;
+    faces.open[d] = fluxes.open[d].data() + run.first;
+    faces.low[d] = offset_low(run, d);
+  }
+  return faces;
+}
+
 void find_limits(const Rows& rows, const FaceFluxes& fluxes, const std::vector<double>& air, double cfl,
                  const std::vector<std::uint8_t>& computed, std::vector<LimitFound>& of_run) {
   static const SweepKernel kernel = select_sweep();
@@ -22,14 +33,7 @@ void find_limits(const Rows& rows, const FaceFluxes& fluxes, const std::vector<d
     for (int r = chunks[c].first_run; r < chunks[c].last_run; ++r) {
       if (!computed.empty() && !computed[r]) continue;
       const Run& run = rows.runs()[r];
-      LimitRun faces{run.count, {}, {}, {}, air.data() + run.first, cfl};
-      for (int d = 0; d < 3; ++d) {
-        faces.mass[d] = fluxes.mass[d].data() + run.first;
-        if (!fluxes.drift[d].empty()) faces.drift[d] = fluxes.drift[d].data() + run.first;
-        faces.open[d] = fluxes.open[d].data() + run.first;
-        faces.low[d] = offset_low(run, d);
-      }
-      of_run[r] = kernel.limit(faces);
+      of_run[r] = kernel.limit(faces_of(run, fluxes, air.data() + run.first, cfl));
     }
   });
 }

@@ -15,6 +15,8 @@ struct StepLimit {
   double least_air = 0.0;  // smallest air mass of a cell at the start
 };
 
+LimitRun faces_of(const Run& run, const FaceFluxes& fluxes, const double* air_of_run, double cfl);
+
 /// What each run asks for, given the air mass `air` of each slot; runs that are not marked in `computed` (empty: all
 /// are) are left out. Conditions for n steps, order x y z, net outflows N, outflows A: n A_x <= cfl theta, n A_y <= cfl
 /// (theta - n N_x), n A_z <= cfl (theta - n N_x - n N_y), n N_x <= theta/2, n (N_x + N_y) <= theta/2; and the same for

@@ -104,8 +104,6 @@ ScalarFields::ScalarFields(const Rows& rows, int scalars, const std::vector<int>
   work.opening_patch = opening_patch.empty() ? std::vector<int>(rows.slots(), -1) : opening_patch;
   find_faces(rows, cell, work);
   find_lines(rows, cell, work);
-  work.concentration.assign(rows.slots() * scalars, 0.0);
-  work.out_high = work.out_low = work.concentration;
   work.computed.assign(rows.runs().size(), 0);
 }
 

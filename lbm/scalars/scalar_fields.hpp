@@ -36,11 +36,15 @@ struct ScalarLaw {
 struct ScalarOptions {
   std::vector<ScalarLaw> scalar;
   double cfl = 0.8;  // largest part of a cell's air that leaves it in one sweep, in (0, 1)
-  /// Leave out runs that hold nothing (less than 1e-30 of the scalar) and have no neighbour that does. Changes nothing
-  /// else: the sub-steps come from the whole flow.
+  /// Leave out runs whose cells all rest (each less than 1e-30 of the scalar) and that have no other neighbour. Changes
+  /// nothing else: the sub-steps come from the whole flow.
   bool skip_empty = true;
   /// A scalar of which the domain holds no more than this rests where it is until there is more; 0: none rests.
   double negligible = 0.0;
+  /// Concentrations, and with them what a face passes, in float: half the traffic, twice the numbers in a register. The
+  /// amounts stay double, what leaves one cell enters the next to the bit; a constant concentration is constant to
+  /// 1e-7.
+  bool single = false;
 };
 
 /// What passed the boundaries since the start, in amounts.
@@ -58,6 +62,12 @@ double absorbed(const ScalarBudget& budget, int scalar);
 /// left - entered over all patches, plus absorbed.
 double gone(const ScalarBudget& budget, int scalar);
 
+/// Of each scalar and slot, [scalar * slots + slot]: made at the first update that asks for it.
+template <class Real>
+struct ScalarScratch {
+  std::vector<Real> concentration, out_high, out_low;  // out: leaves through a face in one sweep
+};
+
 /// Scratch of advance_scalars and what it derives once from the rows. No state: a checkpoint leaves it out.
 struct ScalarWork {
   struct OpeningFace {
@@ -73,13 +83,22 @@ struct ScalarWork {
   std::array<std::vector<std::int32_t>, 3> neighbour_begin, neighbour_runs;  // [d] runs that share a face in d, by run
   /// [d][run] everything behind the faces in d lies in the run's own chunk: no opening, no periodic face.
   std::array<std::vector<std::uint8_t>, 3> local;
-  std::vector<double> concentration;                                // [scalar * slots + slot]
-  std::vector<double> out_high, out_low;                            // [scalar * slots + slot] leaves through a face
+  ScalarScratch<float> narrow;                                      // used where ScalarOptions::single
+  ScalarScratch<double> wide;                                       // or where not
+  std::vector<double> seen;                                         // [slot] what diffuse_lines lets diffuse
   std::vector<std::uint8_t> computed;                               // [run] taking part in this update
   std::vector<int> moving;                                          // the scalars that do
   std::array<std::vector<std::int32_t>, 3> line_slots, line_begin;  // [d] lines of cells for implicit diffusion
   std::array<std::vector<std::uint8_t>, 3> line_closes;             // [d][line] its ends are periodic neighbours
   bool checked = false;                                             // the fluxes have been checked
+
+  template <class Real>
+  ScalarScratch<Real>& scratch() {
+    if constexpr (sizeof(Real) == sizeof(float))
+      return narrow;
+    else
+      return wide;
+  }
 };
 
 struct ScalarFields {

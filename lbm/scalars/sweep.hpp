@@ -30,8 +30,8 @@
 
 namespace puffin::lbm {
 
-/// Amounts below this are left where they are: their products would be denormal numbers, which some processors do
-/// slowly.
+/// Amounts below this are always left where they are: their products would be denormal numbers, which some processors
+/// do slowly.
 inline constexpr double dust = 1e-200;
 
 /// A run of cells and its faces in the direction of the sweep; pointers are to the first cell. Up to Rows::padding
@@ -47,14 +47,17 @@ struct SweepRun {
   const double* drift = nullptr;       // [cell] the scalars' own flux on top, as mass of air; null: none
 };
 
-/// One scalar along the run.
+/// One scalar along the run. What a face passes is rounded to Real before anything is taken or given: amounts are
+/// conservative to the rounding of double for either.
+template <class Real>
 struct SweepScalar {
   Scheme scheme = Scheme::mc;
   double exchange = 0.0;  // gamma = steps * Gamma [lattice mass]
+  double resting = dust;  // cells that hold no more than this give nothing away
   double* amount = nullptr;
-  double* concentration = nullptr;
-  double* out_high = nullptr;  // what leaves through the high and the low face
-  double* out_low = nullptr;
+  Real* concentration = nullptr;  // `update` leaves it out where it is null
+  Real* out_high = nullptr;       // what leaves through the high and the low face
+  Real* out_low = nullptr;
 };
 
 /// The faces of a run in all three directions, and what they ask of the number of steps (max_steps.hpp).
@@ -72,10 +75,32 @@ struct LimitFound {
   double least_air = 0.0;  // smallest theta
 };
 
+/// What a run holds.
+struct Content {
+  double sum = 0.0, most = 0.0;  // most: of one cell
+};
+
+template <class Real>
+struct RunSweep {
+  void (*outgoing)(const SweepRun&, const SweepScalar<Real>*, int scalars) = nullptr;
+  void (*update)(const SweepRun&, const SweepScalar<Real>*, int scalars) = nullptr;
+  /// concentration = amount / air, 0 for what rests.
+  void (*concentrate)(int count, const double* air, const SweepScalar<Real>*, int scalars) = nullptr;
+};
 struct SweepKernel {
-  void (*outgoing)(const SweepRun&, const SweepScalar*, int scalars) = nullptr;
-  void (*update)(const SweepRun&, const SweepScalar*, int scalars) = nullptr;
+  RunSweep<float> narrow;
+  RunSweep<double> wide;
   LimitFound (*limit)(const LimitRun&) = nullptr;
+  Content (*content)(int count, const double* amount) = nullptr;
+  /// Largest |air - density| / density.
+  double (*mismatch)(int count, const double* air, const double* density) = nullptr;
+  template <class Real>
+  const RunSweep<Real>& of() const {
+    if constexpr (sizeof(Real) == sizeof(float))
+      return narrow;
+    else
+      return wide;
+  }
 };
 
 /// The same arithmetic, compiled for several processors: equal bits.

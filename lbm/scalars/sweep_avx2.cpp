@@ -5,9 +5,9 @@ namespace puffin::lbm {
 
 SweepKernel avx2_sweep() {
 #if defined(__AVX2__)
-  return {outgoing, update, limit};
+  return this_sweep();
 #else
-  static_cast<void>(outgoing), static_cast<void>(update), static_cast<void>(limit);
+  static_cast<void>(this_sweep);
   return {};
 #endif
 }

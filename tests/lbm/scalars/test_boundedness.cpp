@@ -15,13 +15,18 @@ TEST(Boundedness, holds_over_ten_thousand_updates_of_random_flow_at_cell_peclet_
     set_curl(s, [n](int d, int i, int j, int k) { return 0.05 * noise(100 + n, d, i, j, k); });
     flows.push_back(s.fluxes);
   }
-  for (const Scheme scheme : {Scheme::mc, Scheme::van_leer}) {
+  struct Kind {
+    Scheme scheme;
+    bool single;
+  };
+  for (const auto [scheme, single] : {Kind{Scheme::mc, false}, {Scheme::van_leer, false}, {Scheme::mc, true}}) {
     ScalarFields f = s.fields();
     ScalarBudget b = s.budget();
     for (const auto& run : s.rows.runs())
       for (int i = 0; i < run.count; ++i) f.amount[0][run.first + i] = run.x + i < 9;
     const double start = total(f, 0);
     ScalarOptions o{{{scheme, 0.1 / 1e4}}};
+    o.single = single;
     double least = 0.0, most = 1.0;
     for (int n = 0; n < 10000; ++n) {
       // Every now and then a fresh spike, as a source would make it.
@@ -37,9 +42,10 @@ TEST(Boundedness, holds_over_ten_thousand_updates_of_random_flow_at_cell_peclet_
           most = std::max(most, f.amount[0][run.first + i]);
         }
     }
-    // Rounding alone: 1e-16 a sweep, random; 3e4 sweeps stay below 1e-13.
+    // Rounding alone: 1e-16 a sweep, random; 3e4 sweeps stay below 1e-13. In float 6e-8 a sweep, random: 1e-5; but no
+    // less than nothing, for what leaves is no more than 0.8 of what is there.
     EXPECT_GE(least, -1e-13);
-    EXPECT_LE(most, 1.0 + 1e-12);
+    EXPECT_LE(most, 1.0 + (single ? 1e-5 : 1e-12));
     EXPECT_NEAR((total(f, 0) + gone(b, 0)) / start, 1.0, 1e-12);
   }
 }

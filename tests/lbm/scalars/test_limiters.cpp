@@ -36,6 +36,14 @@ TEST(Limiter, second_order_ones_are_exact_on_a_straight_line) {
   EXPECT_DOUBLE_EQ(MonotonizedCentral::slope(0.3, 0.3), 0.3);
 }
 
+// A thin cloud has a slope too, where the product of two differences would be 0 in float.
+TEST(Limiter, know_small_differences_of_float) {
+  EXPECT_FLOAT_EQ(Minmod::slope(1e-25f, 3e-25f), 1e-25f);
+  EXPECT_FLOAT_EQ(VanLeer::slope(1e-25f, 3e-25f), 1.5e-25f);
+  EXPECT_FLOAT_EQ(MonotonizedCentral::slope(1e-25f, 2e-25f), 1.5e-25f);
+  EXPECT_EQ(MonotonizedCentral::slope(1e-25f, -2e-25f), 0.0f);
+}
+
 TEST(Limiter, have_their_known_values) {
   EXPECT_DOUBLE_EQ(Minmod::slope(1.0, 3.0), 1.0);
   EXPECT_DOUBLE_EQ(VanLeer::slope(1.0, 3.0), 1.5);
