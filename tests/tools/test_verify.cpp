@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
@@ -79,6 +81,20 @@ TEST(Verify, UnknownNamesAreUsageErrorsAndFailedRunsAreFailures) {
   const Result result = puffin("verify --only V01 --quick --set numerics.nonsense=1", "2>&1");
   EXPECT_EQ(result.code, 9) << result.out;
   EXPECT_NE(result.out.find("did not finish"), std::string::npos) << result.out;
+}
+
+// What would break every run does not matter to runs that are finished; without --resume they are never overwritten.
+TEST(Verify, GoesOnWhereItStoppedAndJudgesFinishedRunsAsTheyAre) {
+  const auto folder = std::filesystem::temp_directory_path() / ("puffin-resumed-" + std::to_string(getpid()));
+  const std::string command = "verify --only P09 --json --out " + folder.string();
+  const Result first = puffin(command);
+  EXPECT_EQ(first.code, 0) << first.out;
+  EXPECT_EQ(puffin(command + " --set numerics.nonsense=1").code, 9);
+  const Result again = puffin(command + " --resume --set numerics.nonsense=1");
+  EXPECT_EQ(again.code, 0) << again.out;
+  EXPECT_EQ(again.out, first.out);
+  EXPECT_EQ(puffin("verify --resume").code, 2);
+  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

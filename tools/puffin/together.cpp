@@ -108,7 +108,11 @@ class Company {
     p.health = std::make_unique<coupling::Health>(p.simulation->models, p.state());
     p.recorder = std::make_unique<Recorder>(*p.simulation, *p.folder);
     p.progress = std::make_unique<Progress>(*p.simulation, *p.folder, quiet_ || !all_.empty());
-    if (!all_.empty()) p.state().air.reset();  // the first one's is everybody's
+    if (!all_.empty()) {  // the first one's air is everybody's; it lacks what only fines need if that one has none
+      auto& corners = all_.front().state().air->links.corner_images;
+      if (corners.empty()) corners = std::move(p.state().air->links.corner_images);
+      p.state().air.reset();
+    }
     p.set_up = seconds_since(begin);
     all_.push_back(std::move(p));
   }
