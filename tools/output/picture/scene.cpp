@@ -63,9 +63,9 @@ class Band {
       if (chain_[i].fragment.depth > nearest_[at].depth) sorted.push_back(chain_[i].fragment);
     }
     std::sort(sorted.begin(), sorted.end(), [](const Fragment& a, const Fragment& b) {
+      if (a.depth != b.depth) return a.depth > b.depth;
       // Equal depths are ordered by colour, so that no order of drawing shows.
-      return std::tuple(-a.depth, a.opacity, a.colour.r, a.colour.g) <
-             std::tuple(-b.depth, b.opacity, b.colour.r, b.colour.g);
+      return std::tuple(a.opacity, a.colour.r, a.colour.g) < std::tuple(b.opacity, b.colour.r, b.colour.g);
     });
     if (nearest_[at].opacity > 0) sorted.push_back(nearest_[at]);
     std::array<float, 4> sum{0, 0, 0, 0};
@@ -115,6 +115,17 @@ class Side {
   }
   void set_row(double y) { row_ = along_.x() * (y - from_.y()); }
   double at(double x) const { return sign_ * (row_ - along_.y() * (x - from_.x())); }
+  /// Narrows [low, high] to where a row may lie on this side, give or take a sample.
+  void narrow(int& low, int& high) const {
+    const double slope = -sign_ * along_.y();
+    if (slope == 0.0) return;
+    const double edge = from_.x() + row_ / along_.y() - 0.5;
+    if (!(std::abs(edge) < 1e9)) return;
+    if (slope > 0.0)
+      low = std::max(low, static_cast<int>(edge) - 1);
+    else
+      high = std::min(high, static_cast<int>(edge) + 2);
+  }
   bool holds(double value) const { return value > 0 || (value == 0 && owns_edge_); }
 
  private:
@@ -136,7 +147,9 @@ void fill(FlatTriangle t, Band& band) {
   Side opposite_a(t.b, t.c), opposite_b(t.c, t.a), opposite_c(t.a, t.b);
   for (int y = y0; y <= y1; ++y) {
     opposite_a.set_row(y + 0.5), opposite_b.set_row(y + 0.5), opposite_c.set_row(y + 0.5);
-    for (int x = x0; x <= x1; ++x) {
+    int first = x0, last = x1;
+    for (const Side* side : {&opposite_a, &opposite_b, &opposite_c}) side->narrow(first, last);
+    for (int x = first; x <= last; ++x) {
       const double a = opposite_a.at(x + 0.5), b = opposite_b.at(x + 0.5), c = opposite_c.at(x + 0.5);
       if (!opposite_a.holds(a) || !opposite_b.holds(b) || !opposite_c.holds(c)) continue;
       const double depth = (a * t.a.z() + b * t.b.z() + c * t.c.z()) / area;
@@ -193,6 +206,26 @@ void flatten(const SceneEdge& e, const Camera& camera, double nearer, std::vecto
   out.push_back({a - across, b + across, b - across, e.colour, e.opacity});
 }
 
+/// Which of many things reach into which band of rows, in their order; [low, high] of each along y, in samples.
+class ByBand {
+ public:
+  ByBand(int top, int bands) : top_(top * samples), of_band_(bands) {}
+  void add(int thing, double low, double high) {
+    const int last = static_cast<int>(of_band_.size()) - 1;
+    const double first_row = std::floor(low) - top_, last_row = std::ceil(high) - top_;
+    if (!(last_row >= 0.0 && first_row <= (last + 1.0) * rows)) return;
+    const int to = std::min(last, static_cast<int>(last_row) / rows);
+    for (int band = static_cast<int>(std::max(first_row, 0.0)) / rows; band <= to; ++band)
+      of_band_[band].push_back(thing);
+  }
+  const std::vector<int>& operator[](int band) const { return of_band_[band]; }
+
+ private:
+  static constexpr int rows = band_pixels * samples;
+  int top_;
+  std::vector<std::vector<int>> of_band_;
+};
+
 }  // namespace
 
 Camera Camera::looking(double azimuth, double elevation, const Vec3& low, const Vec3& high, const Box& view) {
@@ -232,12 +265,19 @@ void paint(const Scene& scene, const Camera& camera, const Box& view, Canvas& ca
   const int left = std::max(0, static_cast<int>(view.x)), top = std::max(0, static_cast<int>(view.y));
   const int right = std::min(canvas.width(), static_cast<int>(view.x + view.width));
   const int bottom = std::min(canvas.height(), static_cast<int>(view.y + view.height));
-  const int bands = (bottom - top + band_pixels - 1) / band_pixels;
+  const int bands = std::max(0, (bottom - top + band_pixels - 1) / band_pixels);
+  ByBand spheres_of(top, bands), triangles_of(top, bands);
+  for (int n = 0; n < static_cast<int>(spheres.size()); ++n)
+    spheres_of.add(n, spheres[n].centre.y() - spheres[n].radius, spheres[n].centre.y() + spheres[n].radius);
+  for (int n = 0; n < static_cast<int>(triangles.size()); ++n) {
+    const auto [low, high] = std::minmax({triangles[n].a.y(), triangles[n].b.y(), triangles[n].c.y()});
+    triangles_of.add(n, low, high);
+  }
   tbb::parallel_for(0, bands, [&](int number) {
     const int row0 = top + number * band_pixels, row1 = std::min(row0 + band_pixels, bottom);
     Band band(left * samples, row0 * samples, (right - left) * samples, (row1 - row0) * samples);
-    for (const auto& s : spheres) fill(s, band);
-    for (const auto& t : triangles) fill(t, band);
+    for (const int n : spheres_of[number]) fill(spheres[n], band);
+    for (const int n : triangles_of[number]) fill(triangles[n], band);
     std::vector<Fragment> scratch;
     for (int y = row0; y < row1; ++y) {
       for (int x = left; x < right; ++x) {
