@@ -4,8 +4,12 @@
 #include <array>
 #include <cmath>
 
+#include "dem/parts.hpp"
+
 namespace puffin::dem {
 namespace {
+
+constexpr std::size_t carriers_a_part = 512;  // shared among threads
 
 /// Carriers sorted into cubic cells by a hash of the cell's indices: any extent of space, cost ~ number of carriers.
 class Cells {
@@ -69,30 +73,36 @@ void build(const Carriers& carriers, Neighbours& neighbours) {
 
   // Each pair is found by the partner with the larger budget (the larger place if equal), whose search reaches far
   // enough.
-  std::vector<std::array<std::int32_t, 2>> pairs;
-  pairs.reserve(8 * n);
-  for (std::size_t i = 0; i < n; ++i) {
-    const double budget = neighbours.budget[i], reach = carriers.radius[i] + largest + 2.0 * budget;
-    const Eigen::Vector3d x = carriers.position[i], arm = Eigen::Vector3d::Constant(reach);
-    const auto low = cells.cell(x - arm), high = cells.cell(x + arm);
-    for (std::int64_t cz = low[2]; cz <= high[2]; ++cz)
-      for (std::int64_t cy = low[1]; cy <= high[1]; ++cy)
-        for (std::int64_t cx = low[0]; cx <= high[0]; ++cx)
-          cells.visit({cx, cy, cz}, [&](std::int32_t j) {
-            const double other = neighbours.budget[j];
-            if (other > budget || (other == budget && j >= static_cast<std::int32_t>(i))) return;
-            const double far = carriers.radius[i] + carriers.radius[j] + budget + other;
-            if ((carriers.position[j] - x).squaredNorm() < far * far)
-              pairs.push_back({static_cast<std::int32_t>(i), j});
-          });
-  }
-  for (const auto& [i, j] : pairs) ++neighbours.begin[i + 1], ++neighbours.begin[j + 1];
+  std::vector<std::vector<std::array<std::int32_t, 2>>> found((n + carriers_a_part - 1) / carriers_a_part);
+  in_parts(n, carriers_a_part, [&](std::size_t part, std::size_t first, std::size_t last) {
+    auto& pairs = found[part];
+    for (std::size_t i = first; i < last; ++i) {
+      const double budget = neighbours.budget[i], reach = carriers.radius[i] + largest + 2.0 * budget;
+      const Eigen::Vector3d x = carriers.position[i], arm = Eigen::Vector3d::Constant(reach);
+      const auto low = cells.cell(x - arm), high = cells.cell(x + arm);
+      for (std::int64_t cz = low[2]; cz <= high[2]; ++cz)
+        for (std::int64_t cy = low[1]; cy <= high[1]; ++cy)
+          for (std::int64_t cx = low[0]; cx <= high[0]; ++cx)
+            cells.visit({cx, cy, cz}, [&](std::int32_t j) {
+              const double other = neighbours.budget[j];
+              if (other > budget || (other == budget && j >= static_cast<std::int32_t>(i))) return;
+              const double far = carriers.radius[i] + carriers.radius[j] + budget + other;
+              if ((carriers.position[j] - x).squaredNorm() < far * far)
+                pairs.push_back({static_cast<std::int32_t>(i), j});
+            });
+    }
+  });
+  for (const auto& pairs : found)
+    for (const auto& [i, j] : pairs) ++neighbours.begin[i + 1], ++neighbours.begin[j + 1];
   for (std::size_t i = 0; i < n; ++i) neighbours.begin[i + 1] += neighbours.begin[i];
-  neighbours.list.resize(2 * pairs.size());
+  neighbours.list.resize(static_cast<std::size_t>(neighbours.begin.back()));
   std::vector<std::int32_t> next(neighbours.begin.begin(), neighbours.begin.end() - 1);
-  for (const auto& [i, j] : pairs) neighbours.list[next[i]++] = j, neighbours.list[next[j]++] = i;
-  for (std::size_t i = 0; i < n; ++i)
-    std::sort(neighbours.list.begin() + neighbours.begin[i], neighbours.list.begin() + neighbours.begin[i + 1]);
+  for (const auto& pairs : found)
+    for (const auto& [i, j] : pairs) neighbours.list[next[i]++] = j, neighbours.list[next[j]++] = i;
+  in_parts(n, carriers_a_part, [&](std::size_t, std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i)
+      std::sort(neighbours.list.begin() + neighbours.begin[i], neighbours.list.begin() + neighbours.begin[i + 1]);
+  });
 }
 
 }  // namespace puffin::dem

@@ -10,6 +10,7 @@ set(PUFFIN_SCALAR_SOURCES
   scalars/sweep_avx2.cpp
   scalars/sweep_avx512.cpp
   scalars/sweep_baseline.cpp
+  scalars/sweep_direction.cpp
   scalars/wall_sinks.cpp)
 # Contraction stays off (puffin_flags): every instruction set gives the same bits. Nobody reads floating-point exception flags;
 # saying so changes no value and lets the compiler turn selections into masks.

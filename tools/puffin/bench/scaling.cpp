@@ -124,7 +124,7 @@ class ScalingBench {
     add(set_up);
   }
 
-  /// Carriers that fall on each other in a box without air: seconds of 200 steps of 5 us.
+  /// Carriers that fall on each other in a box without air: seconds of 60 steps of 5 us.
   void carriers() {
     std::vector<ScalingRow> rows;
     for (const double n :
@@ -135,7 +135,7 @@ class ScalingBench {
                                                    {"geometry.box.x", length},
                                                    {"geometry.box.y", length},
                                                    {"geometry.box.z", length}});
-      rows.push_back({"carriers", n, number(*run.output, "phases.carriers"), "200 steps of 5 us",
+      rows.push_back({"carriers", n, number(*run.output, "phases.carriers"), "60 steps of 5 us",
                       number(*run.output, "memory_peak"), run.foreign_load, 0.0});
     }
     add(rows);
