@@ -31,7 +31,11 @@ Columns read_columns(const std::string& file) {
     for (std::string cell; std::getline(row, cell, ',');) cells.push_back(cell);
     if (names.empty()) {
       names = cells;
-      for (const std::string& name : names) columns[name];
+      for (const std::string& name : names)
+        if (!columns.try_emplace(name).second)
+          throw std::invalid_argument(
+              file + ":" + std::to_string(number) +
+              (name.empty() ? ": two columns have no name" : ": two columns are called '" + name + "'"));
       continue;
     }
     if (cells.size() != names.size())

@@ -3,7 +3,7 @@
 
 usage: search.py BUILD_DIR NAME [CPU_SECONDS] [--table FILE.csv]      (600 s)
 
-BUILD_DIR is that of the preset fuzz with the target fuzz_NAME built. libFuzzer counts the wall clock; here its processor time
+BUILD_DIR is that of the preset sanitize with the target fuzz_NAME built. libFuzzer counts the wall clock; here its processor time
 is measured, and it is started again until that is enough. What is new goes to BUILD_DIR/found/NAME. Exits 1 at a finding,
 whose input lies there as crash-..., timeout-... or oom-....
 """

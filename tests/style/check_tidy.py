@@ -3,13 +3,14 @@
 
 usage: check_tidy.py ROOT BUILD_DIR sources|FOLDER[,FOLDER...] [CLANG_TIDY]
 
-sources: all tracked .cpp files but those of tests/; else the tracked .cpp files of these top-level folders. Only files that
-BUILD_DIR/compile_commands.json lists, and through them the headers of our folders. Says which files the build does not
-compile: nothing is left out in silence.
+sources: all tracked .cpp files but those of tests/; else the tracked .cpp files in and below these folders, like
+dem,tests/lbm. Only files that BUILD_DIR/compile_commands.json lists, and through them the headers of our folders. Says which
+files the build does not compile: nothing is left out in silence.
 
-Nine tenths of the time go into the headers of the library and Eigen. So files that are compiled with equal flags are looked
-at together, as one source that includes up to GROUP of them. Where that finds anything (a fault, or just two files with a
-helper of the same name), its halves are looked at, and at last the files alone: what is reported was found in a file alone.
+Nine tenths of the time go into the headers of the library and Eigen. So files that are compiled with equal flags and share no
+private name are looked at together, as one source that includes them (groups.py). Where that finds anything (a fault, or just
+two names that do not go together), its halves are looked at, and at last the files alone: what is reported was found in a
+file alone.
 """
 
 import json
@@ -22,15 +23,14 @@ import time
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
+from groups import groups
 from tree import conclude, cpp
-
-GROUP = 8
 
 
 def chosen(root: Path, which: str) -> list[Path]:
     folders = which.split(",")
     return [path for path in cpp(root) if path.suffix == ".cpp" and
-            (path.parts[0] in folders or (which == "sources" and path.parts[0] != "tests"))]
+            (any(path.is_relative_to(folder) for folder in folders) or (which == "sources" and path.parts[0] != "tests"))]
 
 
 def compiled(build: Path) -> set[Path]:
@@ -60,7 +60,8 @@ class Tidy:
         alike = {}
         for path in paths:  # of one folder: they share headers
             alike.setdefault((path.parent, self.flags[(self.root / path).resolve()]), []).append(path)
-        return [files[n:n + GROUP] for files in alike.values() for n in range(0, len(files), GROUP)]
+        return [[file.relative_to(self.root) for file in members]
+                for files in alike.values() for members in groups([self.root / path for path in files])]
 
     def look(self, paths: list[Path]) -> tuple[float, str]:
         """Seconds, and what clang-tidy said if it found anything."""

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Every bad input of table.toml ends with its exit code and its exact message, soon, in bounded memory, writing nothing.
 
-usage: run_table.py PROGRAM [--only WORD] [--show] [--document FILE [--write]]
+usage: run_table.py PROGRAM [--only WORD] [--show] [--document FILE [--write]] [--sanitized]
 
 Each input runs in an empty folder of its own that holds case.toml (the sound base with the input's changes) and the
 input's files. The program then
@@ -11,10 +11,12 @@ input's files. The program then
   - needs less than 2 GB of address space on one thread;
   - leaves no file that was not there, in the folder or beside it, unless `leaves` names it.
 --show prints what is said instead of comparing. --document compares FILE with the table as a page; --write makes it.
+--sanitized: for a program with the address sanitizer, which is slow and takes terabytes of address space: 200 s an input, no limit of
+memory, and without the inputs that need that limit (`limited = true`).
 
 Keys of an [[input]]: what, exit, message, and any of: replace (list of [old, new] in the base), append, case (instead
 of the base), files (name -> text, or { hex = "..." } or { repeat = "text", times = n }), arguments (default: check
-case.toml), environment, leaves, on_stdout (the message is a result: that of plan), setup (shell commands run before in
+case.toml), environment, leaves, on_stdout (the message is a result: that of plan), limited, setup (shell commands run before in
 the folder).
 """
 
@@ -29,6 +31,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 SECONDS = 20
+SANITIZED_SECONDS = 200
 ADDRESS_SPACE = 2 << 30  # bytes
 HERE = Path(__file__).resolve().parent
 
@@ -64,20 +67,21 @@ def limits() -> None:
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
 
 
-def attempt(program: str, base: str, row: dict) -> tuple[int | str, str, set[str]]:
+def attempt(program: str, base: str, row: dict, sanitized: bool) -> tuple[int | str, str, set[str]]:
     with tempfile.TemporaryDirectory() as outer:
         folder = Path(outer) / "here"
         folder.mkdir()
         prepare(folder, base, row)
         before = listing(Path(outer))
         environment = {**os.environ, "NO_COLOR": "1", **row.get("environment", {})}
+        seconds, limit = (SANITIZED_SECONDS, None) if sanitized else (SECONDS, limits)
         try:
             run = subprocess.run([program, *row.get("arguments", ["check", "case.toml"])], cwd=folder, env=environment,
-                                 capture_output=True, timeout=SECONDS, preexec_fn=limits, stdin=subprocess.DEVNULL,
+                                 capture_output=True, timeout=seconds, preexec_fn=limit, stdin=subprocess.DEVNULL,
                                  check=False)
             code, said = run.returncode, (run.stdout if row.get("on_stdout") else run.stderr).decode(errors="replace")
         except subprocess.TimeoutExpired:
-            code, said = f"none within {SECONDS} s", ""
+            code, said = f"none within {seconds} s", ""
         left = {name.removeprefix("here/") for name in listing(Path(outer)) - before}
         prefix, source = Path(program).resolve().parents[1], HERE.parents[2]
         for path, name in ((folder, "{here}"), (prefix, "{prefix}"), (source, "{source}")):
@@ -126,13 +130,14 @@ def main() -> int:
     parser.add_argument("--show", action="store_true")
     parser.add_argument("--document", type=Path)
     parser.add_argument("--write", action="store_true")
+    parser.add_argument("--sanitized", action="store_true")
     options = parser.parse_args()
     table = tomllib.loads((HERE / "table.toml").read_text())
-    rows = [row for row in table["input"] if options.only in row["what"]]
+    rows = [row for row in table["input"] if options.only in row["what"] and not (options.sanitized and row.get("limited"))]
     if options.write:
         options.document.write_text(page(table["input"]))
     with ThreadPoolExecutor(len(os.sched_getaffinity(0))) as pool:
-        outcomes = list(pool.map(lambda row: attempt(options.program, table["base"], row), rows))
+        outcomes = list(pool.map(lambda row: attempt(options.program, table["base"], row, options.sanitized), rows))
     bad = 0
     for row, outcome in zip(rows, outcomes):
         if options.show:
