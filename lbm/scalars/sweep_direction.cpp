@@ -34,7 +34,7 @@ void exchange_openings(const Update<Real>& u, int d, double steps, const std::ve
     if (u.fluxes.open[d][at] != 2) continue;
     const double flux = steps * u.fluxes.mass[d][at];
     const double inflow = std::max(face.ghost_is_high ? -flux : flux, 0.0);
-    for (const int k : u.moving()) {
+    for (const int k : u.moving) {
       Real& out = face.ghost_is_high ? u.out_high(k)[face.cell] : u.out_low(k)[face.cell];
       Real& in = face.ghost_is_high ? u.out_low(k)[face.ghost] : u.out_high(k)[face.ghost];
       const auto value = fixed_value(u.options.scalar[k], face.patch);
@@ -71,7 +71,7 @@ void sweep(const Update<Real>& u, const RunSweep<Real>& kernel, int d, double st
            const std::vector<double>& exchange, bool drifts, bool last) {
   if (u.rows.box()[d] == 1 && u.rows.periodic()[d]) return;  // one cell, its own neighbour
   const ScalarWork& work = u.fields.work;
-  const std::vector<int>& moving = u.moving();
+  const std::vector<int>& moving = u.moving;
   const int scalars = static_cast<int>(moving.size());
   const auto view = [&](const Run& run, std::vector<SweepScalar<Real>>& views) {
     for (int n = 0; n < scalars; ++n) {

@@ -21,10 +21,10 @@ struct Update {
   const FaceFluxes& fluxes;
   const ScalarOptions& options;
   const std::vector<double>& resting;  // of the sub-step: busy_runs.hpp
+  const std::vector<int>& moving;      // the scalars that it takes
   ScalarFields& fields;
   ScalarBudget& budget;
 
-  const std::vector<int>& moving() const { return fields.work.moving; }
   Real* concentration(int k) const { return scratch().concentration.data() + k * rows.slots(); }
   Real* out_high(int k) const { return scratch().out_high.data() + k * rows.slots(); }
   Real* out_low(int k) const { return scratch().out_low.data() + k * rows.slots(); }
@@ -36,7 +36,7 @@ struct Update {
     const auto& chunks = rows.chunks();
     tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {
       const FlushToZero flush;
-      std::vector<SweepScalar<Real>> scalars(moving().size());
+      std::vector<SweepScalar<Real>> scalars(moving.size());
       for (int r = chunks[c].first_run; r < chunks[c].last_run; ++r)
         if (fields.work.computed[r]) visit(rows.runs()[r], scalars);
     });

@@ -45,6 +45,24 @@ TEST_P(SkippingIn, changes_no_bit) {
   EXPECT_EQ(b[0].cells_computed, b[1].cells_computed + b[1].cells_skipped);
 }
 
+TEST(Skipping, one_of_many_scalars_has_the_bits_it_has_alone) {
+  Scene s = stirred();
+  const double steps = 2.5 * max_steps(s.rows, s.fluxes, 0.8);  // several sub-steps
+  ScalarFields together = s.fields(11), alone = s.fields(1);
+  ScalarBudget b11 = s.budget(11), b1 = s.budget(1);
+  ScalarOptions many, one{{{Scheme::mc, 1e-5}}};
+  many.scalar.assign(11, one.scalar[0]);
+  many.scalar[3].scheme = Scheme::upwind;
+  for (int k = 0; k < 11; ++k) together.amount[k][s.at(3 + k, 3, 3)] = 1.0 + k;
+  alone.amount[0][s.at(13, 3, 3)] = 11.0;
+  for (int n = 0; n < 5; ++n) {
+    advance_scalars(s.rows, s.fluxes, steps, many, together, b11);
+    advance_scalars(s.rows, s.fluxes, steps, one, alone, b1);
+  }
+  EXPECT_EQ(together.amount[10], alone.amount[0]);
+  EXPECT_EQ(b11.air_mismatch, b1.air_mismatch);
+}
+
 TEST(Skipping, a_scalar_of_next_to_nothing_rests_until_there_is_more) {
   Scene s = stirred();
   const double steps = max_steps(s.rows, s.fluxes, 0.8);

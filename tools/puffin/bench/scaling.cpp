@@ -161,7 +161,7 @@ class ScalingBench {
   void triangles() {
     std::vector<ScalingRow> rows;
     for (const double facet :
-         a_.quick ? std::vector<double>{1.0, 0.33, 0.1} : std::vector<double>{1.0, 0.33, 0.1, 0.033, 0.01}) {
+         a_.quick ? std::vector<double>{1.0, 0.33, 0.1} : std::vector<double>{1.0, 0.33, 0.1, 0.04}) {
       const auto mesh = std::make_shared<const geometry::TriangleMesh>(
           cases::generate("pipe", {{"diameter", 10.0}, {"length", 20.0}, {"facet_size", facet}}));
       const auto start = std::chrono::steady_clock::now();
