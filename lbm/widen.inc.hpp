@@ -84,32 +84,26 @@ template <class T, int N>
 /// N numbers from memory as T, rounded where T is shorter.
 template <class T, int N, class From>
 [[gnu::always_inline]] inline Lanes<T, N> load_as(const From* p) {
+  Lanes<T, N> v;
   if constexpr (std::is_same_v<T, From>) {
-    Lanes<T, N> v;
     __builtin_memcpy(&v, p, sizeof v);
     return v;
-  } else if constexpr (sizeof(T) < sizeof(From)) {
-#ifdef __AVX512F__
-    if constexpr (N == 16) {
-      const __m256d low = _mm256_castps_pd(_mm512_cvtpd_ps(_mm512_loadu_pd(p)));
-      const __m256d high = _mm256_castps_pd(_mm512_cvtpd_ps(_mm512_loadu_pd(p + 8)));
-      return reinterpret_cast<Lanes<T, N>>(_mm512_insertf64x4(_mm512_castpd256_pd512(low), high, 1));
-    }
-#endif
-#ifdef __AVX2__
-    if constexpr (N == 8)
-      return reinterpret_cast<Lanes<T, N>>(
-          _mm256_set_m128(_mm256_cvtpd_ps(_mm256_loadu_pd(p + 4)), _mm256_cvtpd_ps(_mm256_loadu_pd(p))));
-#endif
-  } else {
-#ifdef __AVX512F__
-    if constexpr (N == 8) return reinterpret_cast<Lanes<T, N>>(_mm512_cvtps_pd(_mm256_loadu_ps(p)));
-#endif
-#ifdef __AVX2__
-    if constexpr (N == 4) return reinterpret_cast<Lanes<T, N>>(_mm256_cvtps_pd(_mm_loadu_ps(p)));
-#endif
   }
-  Lanes<T, N> v;
+  [[maybe_unused]] constexpr bool shorter = sizeof(T)<sizeof(From), longer = sizeof(T)> sizeof(From);
+#ifdef __AVX512F__
+  if constexpr (shorter && N == 16) {
+    const __m256d low = _mm256_castps_pd(_mm512_cvtpd_ps(_mm512_loadu_pd(p)));
+    const __m256d high = _mm256_castps_pd(_mm512_cvtpd_ps(_mm512_loadu_pd(p + 8)));
+    return reinterpret_cast<Lanes<T, N>>(_mm512_insertf64x4(_mm512_castpd256_pd512(low), high, 1));
+  }
+  if constexpr (longer && N == 8) return reinterpret_cast<Lanes<T, N>>(_mm512_cvtps_pd(_mm256_loadu_ps(p)));
+#endif
+#ifdef __AVX2__
+  if constexpr (shorter && N == 8)
+    return reinterpret_cast<Lanes<T, N>>(
+        _mm256_set_m128(_mm256_cvtpd_ps(_mm256_loadu_pd(p + 4)), _mm256_cvtpd_ps(_mm256_loadu_pd(p))));
+  if constexpr (longer && N == 4) return reinterpret_cast<Lanes<T, N>>(_mm256_cvtps_pd(_mm_loadu_ps(p)));
+#endif
   for (int i = 0; i < N; ++i) v[i] = static_cast<T>(p[i]);
   return v;
 }
