@@ -71,6 +71,13 @@ TEST(SameBits, for_every_instruction_set) {
       }
       for (const auto* v : {&a, &c}) all.insert(all.end(), v->begin(), v->end());
       for (const auto* v : {&conc, &high, &low}) all.insert(all.end(), v->begin(), v->end());
+      std::vector<Real> poor(slots);  // one cell in two rests
+      const SweepScalar<Real> resting{scheme, 0.0, 1.0, c.data() + 1, poor.data() + 1};
+      kernel.of<Real>().concentrate(n, a.data() + 1, &resting, 1);
+      all.insert(all.end(), poor.begin(), poor.end());
+      for (int i = n + 1; i < slots; ++i) EXPECT_EQ(poor[i], 0.0);
+      const Content content = kernel.content(n, c.data() + 1);
+      all.insert(all.end(), {content.sum, content.most, kernel.mismatch(n, a.data() + 1, air.data() + 1)});
       const double* faces = mass.data() + 1;
       const LimitRun limits{n, {faces, faces, faces}, {&open[1], &open[1], &open[1]}, {-1, -1, -1}, &air[1], 0.8};
       const LimitFound found = kernel.limit(limits);

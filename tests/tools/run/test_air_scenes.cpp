@@ -5,6 +5,17 @@
 namespace puffin::test {
 namespace {
 
+const std::string periodic_sides = R"toml(
+[[air.boundary]]
+patch = "x-min"
+type = "periodic"
+with = "x-max"
+[[air.boundary]]
+patch = "y-min"
+type = "periodic"
+with = "y-max"
+)toml";
+
 // The start decays as exp(-pi^2 nu t/h^2), to 3e-3 at 40 ms where nothing else drives it; the inlet drives all of it
 // here. 16 cells across: the lattice's parabola is wrong by about (1/16)^2/2 = 0.2 % of the peak and interpolation by
 // as much; 0.6 % of the peak at every point, the walls and the half cells beside them included.
@@ -165,15 +176,8 @@ generator = "box"
 x = "0.0625 mm"
 y = "0.0625 mm"
 z = "1 mm"
-)toml" + air + R"toml(
-[[air.boundary]]
-patch = "x-min"
-type = "periodic"
-with = "x-max"
-[[air.boundary]]
-patch = "y-min"
-type = "periodic"
-with = "y-max"
+)toml" + air + periodic_sides +
+                              R"toml(
 [[air.boundary]]
 patch = "z-max"
 type = "moving-wall"
@@ -227,14 +231,7 @@ z = "1 mm"
 density = "1.204 kg/m^3"
 viscosity = "1.2e-3 Pa s"
 body_force = [0.0, 0.0, -100.0]
-[[air.boundary]]
-patch = "x-min"
-type = "periodic"
-with = "x-max"
-[[air.boundary]]
-patch = "y-min"
-type = "periodic"
-with = "y-max"
+)toml" + periodic_sides + R"toml(
 [numerics]
 dx = "0.1 mm"
 reference_speed = "1 m/s"
@@ -269,14 +266,7 @@ y = "0.25 mm"
 z = "0.25 mm"
 )toml" + air + R"toml(
 body_force = { file = "force.csv" }
-[[air.boundary]]
-patch = "x-min"
-type = "periodic"
-with = "x-max"
-[[air.boundary]]
-patch = "y-min"
-type = "periodic"
-with = "y-max"
+)toml" + periodic_sides + R"toml(
 [[air.boundary]]
 patch = "z-min"
 type = "periodic"
