@@ -58,6 +58,7 @@ KernelInput<T> kernel_input(const CollisionConstants& constants, const Drive& dr
   input.f = p.f.data();
   input.stride = p.stride;
   input.runs = air.rows.runs().data();
+  input.active_lanes = air.rows.active_lanes().data();
   input.run_flags = air.markers ? air.markers->run_flags.data() : air.run_flags.data();
   input.parity = p.next;
   input.constants = constants;

@@ -12,6 +12,7 @@
 
 #include <cmath>
 #include <type_traits>
+#include <utility>
 
 #include "lbm/d3q19.hpp"
 
@@ -34,11 +35,23 @@ struct Arithmetic {
     using std::sqrt;
     return sqrt(x);
   }
+  /// Of a number that is not zero.
+  [[gnu::always_inline]] static inline Real positive_root(const Real& x) { return root(x); }
 };
 
 /// A direction known at compile time.
 template <int I>
 using Index = std::integral_constant<int, I>;
+
+/// body(Index<0>()), ..., body(Index<N - 1>()): unlike a loop it leaves the compiler no doubt which member of an array is
+/// meant, so the arrays of a law stay in registers.
+template <int N, class Body>
+[[gnu::always_inline]] inline void each(const Body& body) {
+  [&]<int... I>(std::integer_sequence<int, I...>) __attribute__((always_inline)) {
+    (body(Index<I>()), ...);
+  }
+  (std::make_integer_sequence<int, N>());
+}
 
 /// What a law needs beside the populations; the same for every cell of a step.
 struct CollisionConstants {
@@ -72,10 +85,10 @@ struct RawMoments {
   Real m[6];  // sum_i g_i c_a c_b, order as Pi
 };
 
-/// Reads the 19 populations once and returns their sums.
+/// Reads the 19 populations once and returns their sums: drho = sum_i g_i, j = sum_i g_i c_i, m = sum_i g_i c_a c_b. (By
+/// references to where they are wanted: a copy of them in memory costs a third of the reading.)
 template <class Real, class Get>
-[[gnu::always_inline]] inline RawMoments<Real> raw_moments(const Get& get) {
-  RawMoments<Real> r;
+[[gnu::always_inline]] inline void sum_moments(const Get& get, Real& drho, Real (&j)[3], Real (&m)[6]) {
   // The four diagonals of a plane (a,b), in the order ++, --, +-, -+.
   struct Plane {
     Real sum, cross, a, b;
@@ -85,24 +98,27 @@ template <class Real, class Get>
     return Plane{same + other, same - other, d + e, d - e};
   };
   const Plane xy = plane(get(Index<7>()), get(Index<8>()), get(Index<9>()), get(Index<10>()));
+  m[3] = xy.cross;
   const Plane xz = plane(get(Index<11>()), get(Index<12>()), get(Index<13>()), get(Index<14>()));
+  m[4] = xz.cross;
   const Plane yz = plane(get(Index<15>()), get(Index<16>()), get(Index<17>()), get(Index<18>()));
-  r.m[0] = xy.sum + xz.sum;
-  r.m[1] = xy.sum + yz.sum;
-  r.m[2] = xz.sum + yz.sum;
-  r.m[3] = xy.cross;
-  r.m[4] = xz.cross;
-  r.m[5] = yz.cross;
-  r.drho = (r.m[0] + yz.sum) + get(Index<0>());
-  const auto axis = [&](Real p, Real n, Real side, int d) __attribute__((always_inline)) {
+  m[5] = yz.cross;
+  const Real x = xy.sum + xz.sum, all = (x + yz.sum) + get(Index<0>());
+  const auto axis = [&](Real p, Real n, Real diagonals, Real side, auto d) __attribute__((always_inline)) {
     const Real both = p + n;
-    r.m[d] = r.m[d] + both;
-    r.drho = r.drho + both;
-    r.j[d] = (p - n) + side;
+    m[d] = diagonals + both;
+    j[d] = (p - n) + side;
+    return both;
   };
-  axis(get(Index<1>()), get(Index<2>()), xy.a + xz.a, 0);
-  axis(get(Index<3>()), get(Index<4>()), xy.b + yz.a, 1);
-  axis(get(Index<5>()), get(Index<6>()), xz.b + yz.b, 2);
+  const Real x2 = axis(get(Index<1>()), get(Index<2>()), x, xy.a + xz.a, Index<0>());
+  const Real y2 = axis(get(Index<3>()), get(Index<4>()), xy.sum + yz.sum, xy.b + yz.a, Index<1>());
+  const Real z2 = axis(get(Index<5>()), get(Index<6>()), xz.sum + yz.sum, xz.b + yz.b, Index<2>());
+  drho = ((all + x2) + y2) + z2;
+}
+template <class Real, class Get>
+[[gnu::always_inline]] inline RawMoments<Real> raw_moments(const Get& get) {
+  RawMoments<Real> r;
+  sum_moments(get, r.drho, r.j, r.m);
   return r;
 }
 
@@ -111,20 +127,20 @@ template <bool Forced, class Real>
 [[gnu::always_inline]] inline Hydrodynamics<Real> hydrodynamics(const RawMoments<Real>& r, const Real (&force)[3]) {
   Hydrodynamics<Real> h;
   h.drho = r.drho;
-  for (int d = 0; d < 3; ++d) h.j[d] = r.j[d];
+  each<3>([&](auto d) __attribute__((always_inline)) { h.j[d] = r.j[d]; });
   if constexpr (Forced)
-    for (int d = 0; d < 3; ++d) h.j[d] = h.j[d] + constant<Real>(0.5) * force[d];
+    each<3>([&](auto d) __attribute__((always_inline)) { h.j[d] = h.j[d] + constant<Real>(0.5) * force[d]; });
   h.rho = constant<Real>(1) + h.drho;
   h.inverse_rho = Arithmetic<Real>::inverse(h.rho);
-  for (int d = 0; d < 3; ++d) h.u[d] = h.j[d] * h.inverse_rho;
+  each<3>([&](auto d) __attribute__((always_inline)) { h.u[d] = h.j[d] * h.inverse_rho; });
   const Real third = h.drho * constant<Real>(1.0 / 3.0);
-  for (int d = 0; d < 3; ++d) h.pi[d] = (r.m[d] - third) - h.j[d] * h.u[d];
+  each<3>([&](auto d) __attribute__((always_inline)) { h.pi[d] = (r.m[d] - third) - h.j[d] * h.u[d]; });
   h.pi[3] = r.m[3] - h.j[0] * h.u[1];
   h.pi[4] = r.m[4] - h.j[0] * h.u[2];
   h.pi[5] = r.m[5] - h.j[1] * h.u[2];
   if constexpr (Forced) {
     const Real half = constant<Real>(0.5);
-    for (int d = 0; d < 3; ++d) h.pi[d] = h.pi[d] + h.u[d] * force[d];
+    each<3>([&](auto d) __attribute__((always_inline)) { h.pi[d] = h.pi[d] + h.u[d] * force[d]; });
     h.pi[3] = h.pi[3] + half * (h.u[0] * force[1] + h.u[1] * force[0]);
     h.pi[4] = h.pi[4] + half * (h.u[0] * force[2] + h.u[2] * force[0]);
     h.pi[5] = h.pi[5] + half * (h.u[1] * force[2] + h.u[2] * force[1]);
@@ -147,7 +163,15 @@ template <class Real>
 template <class Real>
 [[gnu::always_inline]] inline void remove_trace(Real (&pi)[6]) {
   const Real mean = ((pi[0] + pi[1]) + pi[2]) * constant<Real>(1.0 / 3.0);
-  for (int d = 0; d < 3; ++d) pi[d] = pi[d] - mean;
+  each<3>([&](auto d) __attribute__((always_inline)) { pi[d] = pi[d] - mean; });
+}
+
+/// |Pi|^2, the sum of the squares of all nine components.
+template <class Real>
+[[gnu::always_inline]] inline Real square_of(const Real (&p)[6]) {
+  const Real diagonal = p[0] * p[0] + p[1] * p[1] + p[2] * p[2];
+  const Real across = p[3] * p[3] + p[4] * p[4] + p[5] * p[5];
+  return diagonal + constant<Real>(2) * across;
 }
 
 /// Twice the relaxation time with an eddy viscosity. From the stress, Smagorinsky's in closed form:
@@ -156,12 +180,14 @@ template <class Real>
 /// of the deviatoric part where the caller has removed the trace. Prescribed (from_stress = 0): |Pi| is replaced by 1,
 /// and `les` = 36 nu_t (nu_t + tau0/3) makes it tau0 + 3 nu_t (prescribed_les).
 template <class Real>
+[[gnu::always_inline]] inline Real twice_tau(const Real& stress2, const CollisionConstants& c, const Real& les) {
+  const Real norm =
+      Arithmetic<Real>::root(constant<Real>(c.from_stress) * stress2 + constant<Real>(1.0 - c.from_stress));
+  return constant<Real>(c.tau0) + Arithmetic<Real>::positive_root(constant<Real>(c.tau0 * c.tau0) + les * norm);
+}
+template <class Real>
 [[gnu::always_inline]] inline Real twice_tau(const Real (&p)[6], const CollisionConstants& c, const Real& les) {
-  const Real diagonal = p[0] * p[0] + p[1] * p[1] + p[2] * p[2];
-  const Real across = p[3] * p[3] + p[4] * p[4] + p[5] * p[5];
-  const Real norm = Arithmetic<Real>::root(constant<Real>(c.from_stress) * (diagonal + (across + across)) +
-                                           constant<Real>(1.0 - c.from_stress));
-  return constant<Real>(c.tau0) + Arithmetic<Real>::root(constant<Real>(c.tau0 * c.tau0) + les * norm);
+  return twice_tau(square_of(p), c, les);
 }
 
 /// The `les` that gives the eddy viscosity nu_t [lattice units], over the density as twice_tau takes it:

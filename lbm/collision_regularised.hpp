@@ -20,26 +20,32 @@ struct CellState {
 /// Reads a cell: raw moments into drho, j and p.
 template <class Real, class Get>
 [[gnu::always_inline]] inline void read_moments(const Get& get, CellState<Real>& s) {
-  const RawMoments<Real> r = raw_moments<Real>(get);
-  s.drho = r.drho;
-  for (int d = 0; d < 3; ++d) s.j[d] = r.j[d];
-  for (int n = 0; n < 6; ++n) s.p[n] = r.m[n];
+  sum_moments(get, s.drho, s.j, s.p);
 }
 
-/// From raw moments to velocity and stress; the trace of the stress is relaxed at 1. `les` is 18 sqrt2 L^2, and over
-/// the density on return.
+/// From raw moments to velocity and stress; the trace of the stress is relaxed at 1, so what belongs to it (rho/3) need
+/// not be subtracted. `les` is 18 sqrt2 L^2, and over the density on return.
 template <bool Forced, class Real>
 [[gnu::always_inline]] inline void find_stress(const Real (&force)[3], Real& les, CellState<Real>& s) {
-  RawMoments<Real> r;
-  r.drho = s.drho;
-  for (int d = 0; d < 3; ++d) r.j[d] = s.j[d];
-  for (int n = 0; n < 6; ++n) r.m[n] = s.p[n];
-  Hydrodynamics<Real> h = hydrodynamics<Forced>(r, force);
-  remove_trace(h.pi);
-  les = les * h.inverse_rho;
-  for (int d = 0; d < 3; ++d) s.j[d] = h.j[d];
-  for (int d = 0; d < 3; ++d) s.u[d] = h.u[d];
-  for (int n = 0; n < 6; ++n) s.p[n] = h.pi[n];
+  const Real half = constant<Real>(0.5);
+  if constexpr (Forced) each<3>([&](auto d) __attribute__((always_inline)) { s.j[d] = s.j[d] + half * force[d]; });
+  const Real inverse_rho = Arithmetic<Real>::inverse(constant<Real>(1) + s.drho);
+  les = les * inverse_rho;
+  each<3>([&](auto d) __attribute__((always_inline)) { s.u[d] = s.j[d] * inverse_rho; });
+  const auto less_flow = [&](auto d, auto e, auto n) __attribute__((always_inline)) {
+    Real p = s.p[n] - s.j[d] * s.u[e];
+    if constexpr (Forced) p = p + half * (s.u[d] * force[e] + s.u[e] * force[d]);
+    return p;
+  };
+  const Real xx = less_flow(Index<0>(), Index<0>(), Index<0>()), yy = less_flow(Index<1>(), Index<1>(), Index<1>()),
+             zz = less_flow(Index<2>(), Index<2>(), Index<2>());
+  const Real mean = ((xx + yy) + zz) * constant<Real>(1.0 / 3.0);
+  s.p[0] = xx - mean;
+  s.p[1] = yy - mean;
+  s.p[2] = zz - mean;
+  s.p[3] = less_flow(Index<0>(), Index<1>(), Index<3>());
+  s.p[4] = less_flow(Index<0>(), Index<2>(), Index<4>());
+  s.p[5] = less_flow(Index<1>(), Index<2>(), Index<5>());
 }
 
 /// Both at once.
@@ -49,13 +55,16 @@ template <bool Forced, class Real, class Get>
   find_stress<Forced>(force, les, s);
 }
 
-/// Relaxation of the stress: returns 1 - omega. `les` = 18 sqrt2 L^2/rho.
+/// Relaxation of the stress: returns 1 - omega. `les` = 18 sqrt2 L^2/rho. On return stress2 is no less than the square of
+/// the relaxed stress.
 struct RelaxStress {
   static double old_force(const CollisionConstants&) { return 1.0; }  // factor of the force in the units of the state
 
   template <class Real>
-  [[gnu::always_inline]] static inline Real relax(const CollisionConstants& c, const Real& les, CellState<Real>& s) {
-    return constant<Real>(1) - constant<Real>(2) * Arithmetic<Real>::inverse(twice_tau(s.p, c, les));
+  [[gnu::always_inline]] static inline Real relax(const CollisionConstants& c, const Real& les, CellState<Real>& s,
+                                                  Real& stress2) {
+    stress2 = square_of(s.p);  // |1 - omega| < 1
+    return constant<Real>(1) - constant<Real>(2) * Arithmetic<Real>::inverse(twice_tau(stress2, c, les));
   }
 };
 
@@ -66,27 +75,29 @@ struct RelaxRescaled {
   static double old_force(const CollisionConstants& c) { return 1.0 / (c.rescale * c.rescale); }
 
   template <class Real>
-  [[gnu::always_inline]] static inline Real relax(const CollisionConstants& c, const Real& les, CellState<Real>& s) {
+  [[gnu::always_inline]] static inline Real relax(const CollisionConstants& c, const Real& les, CellState<Real>& s,
+                                                  Real& stress2) {
+    stress2 = constant<Real>(1);  // not known
     const Real one = constant<Real>(1), r = constant<Real>(c.rescale);
     const Real tau = constant<Real>(0.5) * twice_tau(s.p, c, les);
     const Real tau_new = constant<Real>(c.tau0_rescaled) + r * (tau - constant<Real>(c.tau0));
     const Real old_rho = one + s.drho;
     s.drho = constant<Real>(c.rescale * c.rescale) * s.drho;
     const Real rho = one + s.drho;
-    for (int d = 0; d < 3; ++d) s.u[d] = s.u[d] * r;
-    for (int d = 0; d < 3; ++d) s.j[d] = rho * s.u[d];
+    each<3>([&](auto d) __attribute__((always_inline)) { s.u[d] = s.u[d] * r; });
+    each<3>([&](auto d) __attribute__((always_inline)) { s.j[d] = rho * s.u[d]; });
     return (one - one / tau_new) * (r * (tau_new / tau) * (rho / old_rho));
   }
 };
 
 namespace detail {
 
-/// Quantities of both regularised laws, in the units in which they are added: T'_aab = T_aab/4 and so on.
+/// Quantities of both regularised laws, in the units in which they are added.
 template <class Real>
 struct Assembly {
-  Real s[6];     // S_ab = rho u_a u_b + p_ab + (u_a F_b + u_b F_a)/2
-  Real h[3];     // j*_a/12, j* = rho u + F/2
-  Real t[3][3];  // t[a][b] = T_abb/4, a != b: what carries momentum along a across the plane (a,b)
+  Real s[6];       // S_ab = rho u_a u_b + p_ab + (u_a F_b + u_b F_a)/2
+  Real j4[3];      // j*_a/4, j* = rho u + F/2
+  Real odd[3][3];  // odd[a][b] = j*_a/12 + T_abb/4, a != b: what diagonals of the plane (a,b) carry along a
 };
 
 /// T_aab = rho u_a^2 u_b + 2 u_a p_ab + u_b p_aa + (u_a^2 F_b + 2 u_a u_b F_a)/2 = u_a (S_ab + p_ab) + u_b q_aa, where
@@ -96,36 +107,41 @@ template <bool Forced, class Real>
   Assembly<Real> a;
   const Real quarter = constant<Real>(0.25), half = constant<Real>(0.5);
   const Real u4[3] = {quarter * r.u[0], quarter * r.u[1], quarter * r.u[2]};
-  Real q[3];
-  for (int d = 0; d < 3; ++d) {
+  Real q[3], j12[3];
+  each<3>([&](auto d) __attribute__((always_inline)) {
     a.s[d] = r.j[d] * r.u[d] + r.p[d];
     q[d] = r.p[d];
-    a.h[d] = constant<Real>(1.0 / 12.0) * r.j[d];
+    Real j = r.j[d];
     if constexpr (Forced) {
       const Real work = r.u[d] * force[d];
       a.s[d] = a.s[d] + work;
       q[d] = q[d] + half * work;
-      a.h[d] = a.h[d] + constant<Real>(1.0 / 24.0) * force[d];
+      j = j + half * force[d];
     }
-  }
-  const auto pair = [&](int d, int e, int n) __attribute__((always_inline)) {
+    a.j4[d] = quarter * j;
+    j12[d] = constant<Real>(1.0 / 12.0) * j;
+  });
+  const auto pair = [&](auto d, auto e, auto n) __attribute__((always_inline)) {
     a.s[n] = r.j[d] * r.u[e] + r.p[n];
     if constexpr (Forced) a.s[n] = a.s[n] + half * (r.u[d] * force[e] + r.u[e] * force[d]);
     const Real both = a.s[n] + r.p[n];
-    a.t[d][e] = u4[e] * both + u4[d] * q[e];
-    a.t[e][d] = u4[d] * both + u4[e] * q[d];
+    a.odd[d][e] = u4[e] * both + (u4[d] * q[e] + j12[d]);
+    a.odd[e][d] = u4[d] * both + (u4[e] * q[d] + j12[e]);
   };
-  pair(0, 1, 3);
-  pair(0, 2, 4);
-  pair(1, 2, 5);
+  pair(Index<0>(), Index<1>(), Index<3>());
+  pair(Index<0>(), Index<2>(), Index<4>());
+  pair(Index<1>(), Index<2>(), Index<5>());
   return a;
 }
 
-/// The odd part of an axis is what the diagonals leave of the momentum; the even parts are given.
+/// The odd part of an axis a is what the diagonals leave of the momentum, 2 (j*_a/4 - odd[a][b] - odd[a][c]); `even` is
+/// half of the even part.
 template <class Real, class Put, int Plus, int Minus>
-[[gnu::always_inline]] inline void put_axis(const Put& put, Index<Plus> plus, Index<Minus> minus, Real even, Real odd) {
-  put(plus, even + odd);
-  put(minus, even - odd);
+[[gnu::always_inline]] inline void put_axis(const Put& put, Index<Plus> plus, Index<Minus> minus, Real even, Real j4,
+                                            Real odd_b, Real odd_c) {
+  const Real two = constant<Real>(2), both = two * even, odd = j4 - (odd_b + odd_c);
+  put(plus, both + two * odd);
+  put(minus, both - two * odd);
 }
 
 /// Four diagonals of a plane (a,b): even part, S_ab/4, and the odd parts along a and b.
@@ -141,6 +157,18 @@ template <class Real, class Put, int First>
 
 }  // namespace detail
 
+/// Where no population of Rr3 without a force can be below w_i/10, so that the positivity limiter need not look at them:
+///   |u|^2/0.3^2 + |p|^2/0.02^2 + (rho - 1)^2/0.1^2 < 1,
+/// p the relaxed stress. For a diagonal, m = c u (abs(m) <= sqrt2 u), and by Cauchy-Schwarz in the stress,
+///   f/w >= rho (1 + 3 m + 9/2 m^2 - 3/2 u^2 - 6.4 u^3) - (9 + 20.2 u) |p|
+/// is at least 0.11 there; axes and rest have more. Checked by tests/lbm/test_collision.cpp.
+/// Returns that sum.
+template <class Real>
+[[gnu::always_inline]] inline Real distance_from_rest(const Real& drho, const Real& speed2, const Real& stress2) {
+  const Real tenths = constant<Real>(10) * drho;
+  return tenths * tenths + (constant<Real>(1.0 / 0.09) * speed2 + constant<Real>(2500) * stress2);
+}
+
 /// Recursive-regularised third-order collision (RR3) with the trace of the stress relaxed at 1.
 /// Source: Malaspinas, arXiv 1505.06900 (2015); Coreixas et al., PRE 96, 033306 (2017); projected on D3Q19.
 ///   S_ab  = rho u_a u_b + (1-omega) Pi_ab + (u_a F_b + u_b F_a)/2
@@ -151,21 +179,21 @@ template <class Real, class Put, int First>
 /// Second order in space and time: nu = (tau - 1/2)/3. Linearly stable to |u| = 0.10 at tau = 0.5003.
 /// Checked by tests/lbm/test_collision.cpp (conservation, equilibrium, projection) and test_air.cpp (viscosity).
 struct Rr3 : RelaxStress {
+  static constexpr bool positive_near_rest = true;
   template <bool Forced, class Real, class Put>
   [[gnu::always_inline]] static inline void assemble(const CellState<Real>& r, const Real (&force)[3], const Put& put) {
     const auto a = detail::third_order<Forced>(r, force);
     const Real trace = (a.s[0] + a.s[1]) + a.s[2];
     const Real base = constant<Real>(1.0 / 36.0) * r.drho - constant<Real>(1.5 / 36.0) * trace;
-    const Real eighth = constant<Real>(0.125), quarter = constant<Real>(0.25), two = constant<Real>(2);
+    const Real eighth = constant<Real>(0.125), quarter = constant<Real>(0.25);
     put(Index<0>(), constant<Real>(12) * base);
     const Real ex = base + eighth * a.s[0], ey = base + eighth * a.s[1], ez = base + eighth * a.s[2];
-    const Real qy = eighth * a.s[1], qz = eighth * a.s[2];
-    detail::put_plane(put, Index<7>(), ex + qy, quarter * a.s[3], a.h[0] + a.t[0][1], a.h[1] + a.t[1][0]);
-    detail::put_plane(put, Index<11>(), ex + qz, quarter * a.s[4], a.h[0] + a.t[0][2], a.h[2] + a.t[2][0]);
-    detail::put_plane(put, Index<15>(), ey + qz, quarter * a.s[5], a.h[1] + a.t[1][2], a.h[2] + a.t[2][1]);
-    detail::put_axis(put, Index<1>(), Index<2>(), two * ex, two * (a.h[0] - (a.t[0][1] + a.t[0][2])));
-    detail::put_axis(put, Index<3>(), Index<4>(), two * ey, two * (a.h[1] - (a.t[1][0] + a.t[1][2])));
-    detail::put_axis(put, Index<5>(), Index<6>(), two * ez, two * (a.h[2] - (a.t[2][0] + a.t[2][1])));
+    detail::put_plane(put, Index<7>(), ex + eighth * a.s[1], quarter * a.s[3], a.odd[0][1], a.odd[1][0]);
+    detail::put_plane(put, Index<11>(), ex + eighth * a.s[2], quarter * a.s[4], a.odd[0][2], a.odd[2][0]);
+    detail::put_plane(put, Index<15>(), ey + eighth * a.s[2], quarter * a.s[5], a.odd[1][2], a.odd[2][1]);
+    detail::put_axis(put, Index<1>(), Index<2>(), ex, a.j4[0], a.odd[0][1], a.odd[0][2]);
+    detail::put_axis(put, Index<3>(), Index<4>(), ey, a.j4[1], a.odd[1][0], a.odd[1][2]);
+    detail::put_axis(put, Index<5>(), Index<6>(), ez, a.j4[2], a.odd[2][0], a.odd[2][1]);
   }
 };
 
@@ -183,13 +211,14 @@ struct Rr3Rescaled : RelaxRescaled {
 /// Source: Jacob, Malaspinas & Sagaut, J. Turbulence 19, 1051 (2018). sigma = 1: RR3. Linearly stable to |u| = 0.15 at
 /// tau = 0.5003, sigma = 0.98. tau is that of the cell's own stress. Second order: nu = (tau - 1/2)/3.
 struct Hrr : RelaxStress {
+  static constexpr bool positive_near_rest = true;
   template <class Real>
   [[gnu::always_inline]] static inline void blend(const CollisionConstants& c, const Real& les, const Real (&strain)[6],
                                                   CellState<Real>& s) {
     const Real own = constant<Real>(c.hrr_sigma);
     const Real field =
         constant<Real>((c.hrr_sigma - 1.0) / 3.0) * ((constant<Real>(1) + s.drho) * twice_tau(s.p, c, les));
-    for (int n = 0; n < 6; ++n) s.p[n] = own * s.p[n] + field * strain[n];
+    each<6>([&](auto n) __attribute__((always_inline)) { s.p[n] = own * s.p[n] + field * strain[n]; });
   }
 
   template <bool Forced, class Real, class Put>
@@ -211,7 +240,7 @@ struct CentralMoments : RelaxStress {
   template <bool Forced, class Real, class Put>
   [[gnu::always_inline]] static inline void assemble(const CellState<Real>& r, const Real (&force)[3], const Put& put) {
     const auto a = detail::third_order<Forced>(r, force);
-    const Real quarter = constant<Real>(0.25), third = constant<Real>(1.0 / 3.0), half = constant<Real>(0.5);
+    const Real quarter = constant<Real>(0.25), third = constant<Real>(1.0 / 3.0);
     const Real ninth = constant<Real>(1.0 / 9.0) * r.drho;
     const Real u2[3] = {r.u[0] * r.u[0], r.u[1] * r.u[1], r.u[2] * r.u[2]};
     const Real k[3] = {r.j[0] * r.u[0], r.j[1] * r.u[1], r.j[2] * r.u[2]};
@@ -224,16 +253,12 @@ struct CentralMoments : RelaxStress {
     const Real xy = fourth(0, 1, 3), xz = fourth(0, 2, 4), yz = fourth(1, 2, 5);
     const Real m[3] = {third * r.drho + a.s[0], third * r.drho + a.s[1], third * r.drho + a.s[2]};
     put(Index<0>(), (r.drho - ((m[0] + m[1]) + m[2])) + constant<Real>(4) * ((xy + xz) + yz));
-    detail::put_plane(put, Index<7>(), xy, quarter * a.s[3], a.h[0] + a.t[0][1], a.h[1] + a.t[1][0]);
-    detail::put_plane(put, Index<11>(), xz, quarter * a.s[4], a.h[0] + a.t[0][2], a.h[2] + a.t[2][0]);
-    detail::put_plane(put, Index<15>(), yz, quarter * a.s[5], a.h[1] + a.t[1][2], a.h[2] + a.t[2][1]);
-    const Real two = constant<Real>(2);
-    detail::put_axis(put, Index<1>(), Index<2>(), half * m[0] - two * (xy + xz),
-                     two * (a.h[0] - (a.t[0][1] + a.t[0][2])));
-    detail::put_axis(put, Index<3>(), Index<4>(), half * m[1] - two * (xy + yz),
-                     two * (a.h[1] - (a.t[1][0] + a.t[1][2])));
-    detail::put_axis(put, Index<5>(), Index<6>(), half * m[2] - two * (xz + yz),
-                     two * (a.h[2] - (a.t[2][0] + a.t[2][1])));
+    detail::put_plane(put, Index<7>(), xy, quarter * a.s[3], a.odd[0][1], a.odd[1][0]);
+    detail::put_plane(put, Index<11>(), xz, quarter * a.s[4], a.odd[0][2], a.odd[2][0]);
+    detail::put_plane(put, Index<15>(), yz, quarter * a.s[5], a.odd[1][2], a.odd[2][1]);
+    detail::put_axis(put, Index<1>(), Index<2>(), quarter * m[0] - (xy + xz), a.j4[0], a.odd[0][1], a.odd[0][2]);
+    detail::put_axis(put, Index<3>(), Index<4>(), quarter * m[1] - (xy + yz), a.j4[1], a.odd[1][0], a.odd[1][2]);
+    detail::put_axis(put, Index<5>(), Index<6>(), quarter * m[2] - (xz + yz), a.j4[2], a.odd[2][0], a.odd[2][1]);
   }
 };
 

@@ -63,6 +63,7 @@ struct KernelInput {
   std::size_t stride = 0;
   const Run* runs = nullptr;
   const std::uint8_t* run_flags = nullptr;  // per run
+  const std::uint16_t* active_lanes = nullptr;  // of Rows
   int first_run = 0, last_run = 0;
   Parity parity = Parity::even;
   CollisionConstants constants;

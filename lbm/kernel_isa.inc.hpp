@@ -29,12 +29,33 @@ inline Pack<T> load_float(const float* p) {
   return v;
 }
 
-/// Whether a masked load or store costs no more than a plain one.
+/// Whether a masked store costs no more than a plain one.
 #ifdef __AVX512F__
 constexpr bool masked = true;
+#include "lbm/lanes_avx512.inc.hpp"
 #else
 constexpr bool masked = false;
 #endif
+
+/// The same for the lanes of a pack that a mask names.
+template <class P>
+[[gnu::always_inline]] inline P only(const P& v, const typename P::mask_type& lanes) {
+  P kept(typename P::value_type(0));
+  where(lanes, kept) = v;
+  return kept;
+}
+template <class P>
+[[gnu::always_inline]] inline int count_below(const P& v, typename P::value_type limit,
+                                              const typename P::mask_type& lanes) {
+  const auto below = v < P(limit);
+  return stdx::any_of(below) ? stdx::popcount(below && lanes) : 0;
+}
+template <class P>
+[[gnu::always_inline]] inline bool all_below(const P& v, typename P::value_type limit,
+                                             const typename P::mask_type& lanes) {
+  const auto not_below = !(v < P(limit));
+  return !stdx::any_of(not_below) || !stdx::any_of(not_below && lanes);
+}
 
 /// Minimum and maximum as the processor does them: the second operand where either is not a number.
 template <class P>

@@ -29,24 +29,22 @@ struct Seen {
   std::int64_t limited = 0;
 };
 
-/// How a pack lies in its run: whole; over cells that the pack before it does (lanes below `skip`); beyond the end of
-/// the run, where the lanes from `end` on belong to others, perhaps to another thread; or joined: the ends of two runs.
-enum class Fit { whole, overlapping, beyond_end, joined };
+/// How a pack lies among the cells. Without masks (masked = false) it belongs to one run: whole; over cells that the pack
+/// before it does (lanes below `skip`); or beyond the end of the run, where the lanes from `end` on belong to others,
+/// perhaps to another thread. With masks it lies anywhere in a span of runs: those of its lanes that are cells.
+enum class Fit { whole, overlapping, beyond_end, lanes };
 
-/// One pack of cells: [n + skip, n + end) of a run. Direction i of the first cell of the run is found at from[i]: in
-/// its own slots before an even step, in those of its neighbours before an odd one. What leaves in direction i goes
-/// where the opposite one was found.
+/// One pack of slots. Direction i of slot `origin` is found at from[i]: in its own slots before an even step, in those
+/// of its neighbours before an odd one. What leaves in direction i goes where the opposite one was found.
 template <class T>
 struct Place {
   T* const* from;
   std::ptrdiff_t slot;  // of lane 0
-  int n, skip, end;
+  int n;                // from `origin`
+  int skip, end;        // lanes [skip, end) are cells of this pack
+  std::uint32_t lanes;  // or those whose bits are set
   Fit fit;
   std::uint8_t flags;
-  // Joined: lane l of [end, end_other) is cell n_other + l of another run, with slot slot_other + l.
-  T* const* other = nullptr;
-  std::ptrdiff_t slot_other = 0;
-  int n_other = 0, end_other = 0;
 };
 
 /// Reads and writes packs, for one law.
@@ -64,16 +62,17 @@ class PackWork {
     }
   }
 
-  [[gnu::always_inline]] void find_places(const Run& run, T* (&from)[19]) const {
+  /// Where the directions of slot `origin` are found; the slot and its neighbours as in `run`.
+  [[gnu::always_inline]] void find_places(const Run& run, std::ptrdiff_t origin, T* (&from)[19]) const {
     const std::ptrdiff_t* const shift = run.shift[0].data();
     if (in_.parity == Parity::even) {
 #pragma GCC unroll 19
-      for (int i = 0; i < 19; ++i) from[i] = base_[i] + run.first;
+      for (int i = 0; i < 19; ++i) from[i] = base_[i] + origin;
     } else {
 #pragma GCC unroll 19
       for (int i = 0; i < 19; ++i) {
         const auto& c = d3q19::velocity[d3q19::opposite(i)];
-        from[i] = base_[i] + run.first + shift[3 * (c[1] + 1) + c[2] + 1];
+        from[i] = base_[i] + origin + shift[3 * (c[1] + 1) + c[2] + 1];
       }
     }
   }
@@ -81,142 +80,172 @@ class PackWork {
   /// Reads a pack of cells.
   template <Fit fit>
   [[gnu::always_inline]] void read(const Place<T>& p, CellState<P>& state) const {
-    const Lanes mine = lanes<fit>(p);
+    const auto mine = lanes<fit>(p);
     read_moments(
         [&](auto i) __attribute__((always_inline)) { return load<fit>(p, i, mine); }, state);
   }
+  /// From sums to velocity and stress. `les` over the density on return.
   [[gnu::always_inline]] void stress(const Place<T>& p, P& les, CellState<P>& state) const {
     P force[3];
     force_at(p, L::old_force(constants_), force);
-    les = at_cells(p, in_.les);
-    find_stress<Forced>(force, les, state);
+    P length = load_float<T>(in_.les + p.slot);
+    find_stress<Forced>(force, length, state);
     if constexpr (requires { &L::template blend<P>; }) {
       P strain[6];
-      for (int n = 0; n < 6; ++n) strain[n] = at_cells(p, in_.strain[n]);
-      L::blend(constants_, les, strain, state);
+      for (int n = 0; n < 6; ++n) strain[n] = load_float<T>(in_.strain[n] + p.slot);
+      L::blend(constants_, length, strain, state);
     }
+    les = length;
   }
   /// 1 - omega; the state is changed where the time step changes.
-  [[gnu::always_inline]] P relax(const P& les, CellState<P>& state) const { return L::relax(constants_, les, state); }
+  [[gnu::always_inline]] P relax(const P& les, CellState<P>& state, P& stress2) const {
+    return L::relax(constants_, les, state, stress2);
+  }
 
   /// Writes a pack of cells.
   template <Fit fit>
-  [[gnu::always_inline]] void finish(const Place<T>& p, const CellState<P>& unrelaxed, const P& factor,
-                                     Seen<P>& seen) const {
-    const Lanes mine = lanes<fit>(p);
-    CellState<P> s = unrelaxed;
-    for (auto& n : s.p) n = n * factor;
+  [[gnu::always_inline]] void finish(const Place<T>& place, const CellState<P>& unrelaxed, const P& factor,
+                                     const P& stress2, Seen<P>& seen) const {
+    const Place<T> p{place.from, place.slot, place.n, place.skip, place.end, place.lanes, place.fit, place.flags};
+    const auto mine = lanes<fit>(p);
+    const CellState<P> s = relaxed(unrelaxed, factor);  // given to no function that is called: it stays in registers
     P force[3];
     force_at(p, 1.0, force);
-    // Positivity, f_i >= w_i/10: the smallest g_i over axes and over diagonals decides. The populations are stored at
-    // once; in the rare case they are made again from the state, which is still here.
-    P rest, axis, diagonal;
-    L::template assemble<Forced>(
-        s, force, [&](auto i, const P& v) __attribute__((always_inline)) {
-          store<fit>(p, i, mine, v);
-          if constexpr (i == 0) rest = v;
-          if constexpr (i == 1) axis = v;
-          if constexpr (i == 7) diagonal = v;
-          if constexpr (i > 1 && i < 7) axis = minimum(axis, v);
-          if constexpr (i > 7) diagonal = minimum(diagonal, v);
-        });
-    const P lowest = minimum(minimum(rest * P(T(3)), axis * P(T(18))), diagonal * P(T(36)));
-    Mask negative = lowest < P(T(-0.9));
-    if constexpr (fit != Fit::whole) negative = negative && mine.all;
-    if (stdx::any_of(negative)) [[unlikely]]
-      seen.limited += write_limited<fit>(p, s, negative);
-    look<fit>(p, CellMoments<P>{s.drho, s.u[0], s.u[1], s.u[2]}, mine, seen);
+    const CellMoments<P> m{s.drho, s.u[0], s.u[1], s.u[2]};
+    const P speed2 = m.ux * m.ux + m.uy * m.uy + m.uz * m.uz;
+    // Positivity, f_i >= w_i/10. The populations are stored at once; in the rare case they are made again from the state.
+    if constexpr (!Forced && requires { L::positive_near_rest; }) {
+      L::template assemble<Forced>(
+          s, force, [&](auto i, const P& v) __attribute__((always_inline)) { store<fit>(p, i, mine, v); });
+      if (!all_below(distance_from_rest(s.drho, speed2, stress2), T(1), mine)) [[unlikely]] {
+        seen.limited += write_limited<fit>(place, unrelaxed, factor);
+      }
+    } else {
+      P rest, axis, diagonal;
+      L::template assemble<Forced>(
+          s, force, [&](auto i, const P& v) __attribute__((always_inline)) {
+            store<fit>(p, i, mine, v);
+            take_lowest(i, v, rest, axis, diagonal);
+          });
+      if (count_below(lowest(rest, axis, diagonal), T(-0.9), mine) > 0) [[unlikely]]
+        seen.limited += write_limited<fit>(place, unrelaxed, factor);
+    }
+    look<fit>(p, m, speed2, mine, seen);
   }
   /// All at once, for laws that relax populations.
   template <Fit fit>
   [[gnu::always_inline]] void collide(const Place<T>& p, Seen<P>& seen) const {
-    const Lanes mine = lanes<fit>(p);
+    const auto mine = lanes<fit>(p);
     P force[3];
     force_at(p, 1.0, force);
-    const P les = at_cells(p, in_.les);
+    const P les = load_float<T>(in_.les + p.slot);
     const auto m = L::template collide<Forced>(
         [&](auto i) __attribute__((always_inline)) { return load<fit>(p, i, mine); },
         [&](auto i, const P& v) __attribute__((always_inline)) { store<fit>(p, i, mine, v); }, force, constants_, les);
-    look<fit>(p, m, mine, seen);
+    look<fit>(p, m, m.ux * m.ux + m.uy * m.uy + m.uz * m.uz, mine, seen);
   }
 
  private:
-  /// The lanes that are cells of this pack, and those of its first run.
-  struct Lanes {
-    Mask all, first;
-  };
+  /// The lanes that are cells of this pack.
   template <Fit fit>
-  [[gnu::always_inline]] static Lanes lanes(const Place<T>& p) {
-    if constexpr (fit == Fit::whole) return {Mask(true), Mask(true)};
-    const P lane([](auto l) { return static_cast<T>(static_cast<int>(l)); });
-    const Mask first = lane >= P(T(p.skip)) && lane < P(T(p.end));
-    return {fit == Fit::joined ? lane < P(T(p.end_other)) : first, first};
+  [[gnu::always_inline]] static auto lanes(const Place<T>& p) {
+    if constexpr (fit == Fit::lanes) {
+      return lane_set<T>(p.lanes);
+    } else if constexpr (fit == Fit::whole) {
+      return Mask(true);
+    } else {
+      const P lane([](auto l) { return static_cast<T>(static_cast<int>(l)); });
+      return Mask(lane >= P(T(p.skip)) && lane < P(T(p.end)));
+    }
   }
+  /// Lanes that are no cells are read too where others may be writing them; nothing is made of them.
   template <Fit fit>
-  [[gnu::always_inline]] static P load(const Place<T>& p, int i, const Lanes& mine) {
-    if constexpr (fit == Fit::beyond_end || fit == Fit::joined) {
+  [[gnu::always_inline]] static P load(const Place<T>& p, int i, const auto& mine) {
+    if constexpr (fit == Fit::beyond_end) {
       P v(T(0));
-      where(mine.first, v).copy_from(p.from[i] + p.n, stdx::element_aligned);
-      if constexpr (fit == Fit::joined)
-        where(mine.all && !mine.first, v).copy_from(p.other[i] + p.n_other, stdx::element_aligned);
+      where(mine, v).copy_from(p.from[i] + p.n, stdx::element_aligned);
       return v;
     } else {
       return P(p.from[i] + p.n, stdx::element_aligned);
     }
   }
   template <Fit fit>
-  [[gnu::always_inline]] static void store(const Place<T>& p, int i, const Lanes& mine, const P& v) {
+  [[gnu::always_inline]] static void store(const Place<T>& p, int i, const auto& mine, const P& v) {
     T* const to = p.from[d3q19::opposite(i)] + p.n;
     if constexpr (fit == Fit::whole) v.copy_to(to, stdx::element_aligned);
-    if constexpr (fit == Fit::beyond_end || fit == Fit::joined) where(mine.first, v).copy_to(to, stdx::element_aligned);
-    if constexpr (fit == Fit::joined)
-      where(mine.all && !mine.first, v).copy_to(p.other[d3q19::opposite(i)] + p.n_other, stdx::element_aligned);
+    if constexpr (fit == Fit::lanes) store_lanes(v, mine, to);
+    if constexpr (fit == Fit::beyond_end) where(mine, v).copy_to(to, stdx::element_aligned);
     if constexpr (fit == Fit::overlapping) {  // cheaper than a masked store, and all lanes are this run's own
       P kept(to, stdx::element_aligned);
-      where(mine.all, kept) = v;
+      where(mine, kept) = v;
       kept.copy_to(to, stdx::element_aligned);
     }
   }
-  /// Values of an array over slots.
-  [[gnu::always_inline]] static P at_cells(const Place<T>& p, const float* values) {
-    P v = load_float<T>(values + p.slot);
-    if (p.fit == Fit::joined) {
-      const P lane([](auto l) { return static_cast<T>(static_cast<int>(l)); });
-      where(lane >= P(T(p.end)), v) = load_float<T>(values + p.slot_other);
-    }
-    return v;
-  }
   [[gnu::always_inline]] void force_at(const Place<T>& p, double factor, P (&force)[3]) const {
-    for (int d = 0; d < 3; ++d) {
-      force[d] = P(T(0));
+    each<3>([&](auto d) __attribute__((always_inline)) {
       if constexpr (Forced) {
-        force[d] = P(T(in_.uniform_force[d]));
-        if (p.flags & run_forced) force[d] = force[d] + load_float<T>(in_.force[d] + p.slot);
-        force[d] = force[d] * P(T(factor));
+        P f(T(in_.uniform_force[d]));
+        if (p.flags & run_forced) f = f + load_float<T>(in_.force[d] + p.slot);
+        force[d] = f * P(T(factor));
+      } else {
+        force[d] = P(T(0));
       }
-    }
+    });
   }
 
+  [[gnu::always_inline]] static CellState<P> relaxed(const CellState<P>& state, const P& factor) {
+    const auto& [drho, j, u, p] = state;  // member by member: a copy of the whole would be made in memory
+    return {drho,
+            {j[0], j[1], j[2]},
+            {u[0], u[1], u[2]},
+            {p[0] * factor, p[1] * factor, p[2] * factor, p[3] * factor, p[4] * factor, p[5] * factor}};
+  }
+  /// Writes the populations of a pack anew where the limiter acts; returns in how many of its cells.
   template <Fit fit>
-  [[gnu::noinline, gnu::cold]] int write_limited(const Place<T>& p, CellState<P> s, const Mask& negative) const {
-    P force[3];
+  [[gnu::noinline, gnu::cold]] int write_limited(const Place<T>& p, const CellState<P>& unrelaxed,
+                                                 const P& factor) const {
+    const auto mine = lanes<fit>(p);
+    CellState<P> s = relaxed(unrelaxed, factor);
+    P force[3], rest, axis, diagonal;
     force_at(p, 1.0, force);
+    L::template assemble<Forced>(s, force, [&](auto i, const P& v) { take_lowest(i, v, rest, axis, diagonal); });
+    const int negative = count_below(lowest(rest, axis, diagonal), T(-0.9), mine);
+    if (negative == 0) return 0;
     limit_stress<L, Forced>(force, s);
-    const Lanes mine = lanes<fit>(p);
     L::template assemble<Forced>(s, force, [&](auto i, const P& v) { store<fit>(p, i, mine, v); });
-    return stdx::popcount(negative);
+    return negative;
+  }
+  /// The smallest g_i of the axes, and of the diagonals.
+  template <int I>
+  [[gnu::always_inline]] static void take_lowest(Index<I>, const P& v, P& rest, P& axis, P& diagonal) {
+    if constexpr (I == 0) rest = v;
+    if constexpr (I == 1) axis = v;
+    if constexpr (I == 7) diagonal = v;
+    if constexpr (I > 1 && I < 7) axis = minimum(axis, v);
+    if constexpr (I > 7) diagonal = minimum(diagonal, v);
+  }
+  /// The smallest g_i/w_i.
+  [[gnu::always_inline]] static P lowest(const P& rest, const P& axis, const P& diagonal) {
+    return minimum(minimum(rest * P(T(3)), axis * P(T(18))), diagonal * P(T(36)));
   }
   template <Fit fit>
-  [[gnu::always_inline]] void look(const Place<T>& p, CellMoments<P> m, const Lanes& mine, Seen<P>& seen) const {
-    if constexpr (fit != Fit::whole)
-      for (P* v : {&m.density_excess, &m.ux, &m.uy, &m.uz}) where(!mine.all, *v) = P(T(0));
-    const P speed2 = m.ux * m.ux + m.uy * m.uy + m.uz * m.uz;
+  [[gnu::always_inline]] void look(const Place<T>& p, const CellMoments<P>& m, P speed2, const auto& mine,
+                                   Seen<P>& seen) const {
+    P drho = m.density_excess;
+    if constexpr (fit != Fit::whole) {
+      speed2 = only(speed2, mine);
+      drho = only(drho, mine);
+    }
     seen.max_speed2 = maximum(speed2, seen.max_speed2);
-    seen.min_drho = minimum(m.density_excess, seen.min_drho);
-    seen.max_drho = maximum(m.density_excess, seen.max_drho);
+    seen.min_drho = minimum(drho, seen.min_drho);
+    seen.max_drho = maximum(drho, seen.max_drho);
     seen.not_a_number = seen.not_a_number + speed2;  // a sum forgets no NaN, a maximum does
     if (!(p.flags & run_moments)) return;
     const P* value[4] = {&m.density_excess, &m.ux, &m.uy, &m.uz};
+    if constexpr (fit == Fit::lanes) {
+      for (int k = 0; k < 4; ++k) store_lanes(*value[k], mine, in_.moments[k] + p.slot);
+      return;
+    }
     alignas(stdx::memory_alignment_v<P>) T buffer[width];
     for (int k = 0; k < 4; ++k) {
       value[k]->copy_to(buffer, stdx::vector_aligned);

@@ -1,171 +1,167 @@
 // Collision and streaming of the runs of a chunk, part of a kernel unit (kernel_isa.inc.hpp). Packs are taken from the
-// runs in order and treated in batches: all of a batch are read, then all relaxed, then all written, so that the square
-// roots and divisions of one pack do not wait for those of another (docs/decisions/0004-batches-of-packs.md). A batch
-// may span several runs, so short rows do not wait either. While one batch is computed the populations of the next are
-// fetched, a few at a time between the computations: all at once they would only move the waiting to another place
-// (docs/decisions/0005-where-the-air-waited.md).
+// runs in order and go through a pipeline: while one is fetched, the third after it is read, the next are given their
+// stress and their relaxation time, and a sixth is written (docs/decisions/0025-a-pipeline-of-packs.md). So no
+// instruction waits for the square roots and divisions of its own pack, nor for memory: what a stage needs was ready
+// when the stage before it ended, a hundred cycles ago. Packs of several runs follow each other without a gap.
 
 template <class T, class L, bool Forced>
-class Batch {
+class Pipeline {
  public:
   using P = Pack<T>;
   static constexpr int width = static_cast<int>(P::size());
 
-  explicit Batch(const KernelInput<T>& in) : work_(in) {}
+  explicit Pipeline(const KernelInput<T>& in) : work_(in) {}
 
+  /// The cells of one run, without masks: the last pack overlaps the one before it.
   void add(const Run& run, std::uint8_t flags, Seen<P>& seen) {
-    Places* places = &next_->runs[next_->run_count++];
-    work_.find_places(run, places->from);
+    T* const* const from = find_places(run, run.first);
     int n = 0;
     for (; n + width <= run.count; n += width)
-      put({places->from, run.first + n, n, 0, width, Fit::whole, flags}, places, seen);
+      put({from, run.first + n, n, 0, width, 0, Fit::whole, flags}, seen);
     if (n == run.count) return;
     const int left = run.count - n;
-    if (!masked && n > 0) {
-      put({places->from, run.first + run.count - width, run.count - width, width - left, width, Fit::overlapping,
-           flags},
-          places, seen);
-    } else if (joins && flags == 0 && pending_.end > 0 && pending_.end + left <= width) {
-      Place<T> both{places->from, run.first + n, n, 0, left, Fit::joined, flags};
-      next_->others[next_->count] = pending_places_;
-      both.other = next_->others[next_->count].from;
-      both.slot_other = pending_.slot - left;
-      both.n_other = pending_.n - left;
-      both.end_other = left + pending_.end;
-      pending_.end = 0;
-      put(both, places, seen);
-    } else if (joins && flags == 0 && pending_.end == 0 && 2 * left <= width) {
-      pending_places_ = *places;
-      if (n == 0) --next_->run_count;  // no pack of this batch lies in the run
-      pending_ = {nullptr, run.first + n, n, 0, left, Fit::beyond_end, flags};
-    } else {
-      put({places->from, run.first + n, n, 0, left, Fit::beyond_end, flags}, places, seen);
+    if (n > 0)
+      put({from, run.first + run.count - width, run.count - width, width - left, width, 0, Fit::overlapping, flags},
+          seen);
+    else
+      put({from, run.first, 0, 0, left, 0, Fit::beyond_end, flags}, seen);
+  }
+
+  /// The cells from the first of one run to the last of another of the same span, in packs that lie on cache lines.
+  void add_span(const Run& first, const Run& last, const std::uint16_t* active, std::uint8_t flags, Seen<P>& seen) {
+    const std::ptrdiff_t origin = first.first / width * width, end = last.first + last.count;
+    T* const* const from = find_places(first, origin);
+    for (std::ptrdiff_t s = origin; s < end; s += width) {
+      std::uint32_t lanes = active[s / 16] >> s % 16 & ((1U << width) - 1U);
+      if (s < first.first) lanes &= ~0U << (first.first - s);
+      if (s + width > end) lanes &= (1U << (end - s)) - 1U;
+      if (lanes != 0) put({from, s, static_cast<int>(s - origin), 0, width, lanes, Fit::lanes, flags}, seen);
     }
   }
 
+  /// To the end with all packs on their way.
   void flush(Seen<P>& seen) {
-    if (pending_.end > 0) {
-      next_->others[next_->count] = pending_places_;
-      pending_.from = next_->others[next_->count].from;
-      Places* places = &pending_places_;
-      put(pending_, places, seen);
-      pending_.end = 0;
-    }
-    treat(*now_, *next_, seen);
-    treat(*next_, Packs(), seen);
-    now_->count = now_->run_count = next_->count = next_->run_count = 0;
+    while (tick_ < count_ + depth) advance(seen);
+    tick_ = count_ = 0;
   }
 
  private:
-  static constexpr bool joins = masked && !Forced;
-  static constexpr int size = masked ? 4 : 8;  // packs; their states stay in the first-level cache
-  struct Places {
-    T* from[19];
-  };
-  /// The packs of a batch, and the places of the runs that they lie in.
-  struct Packs {
-    Places runs[size + 1];
-    Places others[size];  // of runs whose end is joined to that of another
-    Place<T> place[size];
-    int run_count = 0, count = 0;
-  };
+  // Packs between fetching and reading. Long spans are fetched by the processor itself.
+  static constexpr int ahead = masked ? 0 : 3;
+  static constexpr int depth = ahead + 3;  // between fetching and writing
+  static constexpr int ring = 8;           // places of packs on their way
+  static constexpr int states = 4;         // states of packs between reading and writing
+  static_assert(depth < ring);
 
-  [[gnu::always_inline]] void put(const Place<T>& place, Places*& places, Seen<P>& seen) {
-    next_->place[next_->count++] = place;
-    if (next_->count < size) return;
-    treat(*now_, *next_, seen);
-    std::swap(now_, next_);
-    next_->count = 0;
-    next_->run_count = 1;
-    next_->runs[0] = *places;  // the run may go on
-    places = &next_->runs[0];
+  T* const* find_places(const Run& run, std::ptrdiff_t origin) {
+    auto& from = from_[spans_++ % (ring + 1)];
+    work_.find_places(run, origin, from);
+    return from;
   }
 
-  /// Asks for directions [First, Last) of a pack of the next batch.
-  template <int First, int Last>
-  [[gnu::always_inline]] static void fetch(const Packs& next, int k) {
-    if (k >= next.count) return;
-    const Place<T>& p = next.place[k];
-#pragma GCC unroll 19
-    for (int i = First; i < Last; ++i) __builtin_prefetch(p.from[i] + p.n, 1, 3);
-    if (!joins || p.fit != Fit::joined) return;
-#pragma GCC unroll 19
-    for (int i = First; i < Last; ++i) __builtin_prefetch(p.other[i] + p.n_other + p.end, 1, 3);
+  [[gnu::always_inline]] void put(const Place<T>& place, Seen<P>& seen) {
+    place_[count_++ % ring] = place;
+    advance(seen);
   }
 
-  void treat(const Packs& packs, const Packs& next, Seen<P>& seen) {
-    const int count = packs.count;
-    const Place<T>* const place = packs.place;
+  /// Every pack on its way goes one stage further, the last one first.
+  [[gnu::noinline]] void advance(Seen<P>& seen) {
+    const unsigned tick = tick_++, count = count_;
+    const auto stage = [&](unsigned behind, const auto& body) __attribute__((always_inline)) {
+      const unsigned k = tick - behind;
+      if (k < count) body(k);  // not before the first one (k has wrapped around) and not after the last
+    };
     if constexpr (requires { &L::template relax<P>; }) {
-      for (int k = 0; k < count; ++k) {
-        if (joins && place[k].fit == Fit::joined)
-          read_tail<Fit::joined>(place[k], state_[k]);
-        else if (place[k].fit == Fit::beyond_end)
-          read_tail<Fit::beyond_end>(place[k], state_[k]);
-        else
-          work_.template read<Fit::whole>(place[k], state_[k]);
-      }
-      for (int k = 0; k < count; ++k) {
-        fetch<0, 6>(next, k);
-        work_.stress(place[k], factor_[k], state_[k]);
-      }
-      for (int k = 0; k < count; ++k) {
-        fetch<6, 10>(next, k);
-        factor_[k] = work_.relax(factor_[k], state_[k]);
-      }
-      // Overlapping packs first: they keep lanes by loading them, and loads would wait for stores still on their way.
-      for (int k = 0; k < count && !masked; ++k)
-        if (place[k].fit == Fit::overlapping)
-          work_.template finish<Fit::overlapping>(place[k], state_[k], factor_[k], seen);
-      for (int k = 0; k < count; ++k) {
-        fetch<10, 19>(next, k);
-        if (place[k].fit == Fit::whole) work_.template finish<Fit::whole>(place[k], state_[k], factor_[k], seen);
-        if (place[k].fit == Fit::beyond_end) finish_tail<Fit::beyond_end>(place[k], state_[k], factor_[k], seen);
-        if (joins && place[k].fit == Fit::joined) finish_tail<Fit::joined>(place[k], state_[k], factor_[k], seen);
-      }
+      stage(ahead + 3, [&](unsigned k) __attribute__((always_inline)) { finish(k, seen); });
+      stage(ahead + 2, [&](unsigned k) __attribute__((always_inline)) {
+        const unsigned n = k % states;
+        factor_[n] = work_.relax(factor_[n], state_[n], stress2_[n]);
+      });
+      stage(ahead + 1, [&](unsigned k) __attribute__((always_inline)) {
+        work_.stress(place_[k % ring], factor_[k % states], state_[k % states]);
+      });
+      stage(ahead, [&](unsigned k) __attribute__((always_inline)) { read(k); });
     } else {
-      for (int k = 0; k < count; ++k) {
-        fetch<0, 19>(next, k);
-        if (place[k].fit == Fit::whole) work_.template collide<Fit::whole>(place[k], seen);
-        if (place[k].fit == Fit::beyond_end) work_.template collide<Fit::beyond_end>(place[k], seen);
-        if (joins && place[k].fit == Fit::joined) work_.template collide<Fit::joined>(place[k], seen);
-      }
-      for (int k = 0; k < count && !masked; ++k)
-        if (place[k].fit == Fit::overlapping) work_.template collide<Fit::overlapping>(place[k], seen);
+      stage(ahead, [&](unsigned k) __attribute__((always_inline)) { collide(k, seen); });
     }
+    if constexpr (ahead > 0)
+      stage(0, [&](unsigned k) __attribute__((always_inline)) {
+        const Place<T>& p = place_[k % ring];
+#pragma GCC unroll 19
+        for (int i = 0; i < 19; ++i) __builtin_prefetch(p.from[i] + p.n, 1, 3);
+      });
   }
 
-  template <Fit fit>
+  [[gnu::always_inline]] void read(unsigned k) {
+    const Place<T>& p = place_[k % ring];
+    CellState<P>& state = state_[k % states];
+    if constexpr (masked)
+      work_.template read<Fit::lanes>(p, state);
+    else if (p.fit == Fit::beyond_end)
+      read_tail(p, state);
+    else
+      work_.template read<Fit::whole>(p, state);
+  }
+  [[gnu::always_inline]] void finish(unsigned k, Seen<P>& seen) {
+    const Place<T>& p = place_[k % ring];
+    const unsigned n = k % states;
+    if constexpr (masked)
+      work_.template finish<Fit::lanes>(p, state_[n], factor_[n], stress2_[n], seen);
+    else if (p.fit == Fit::whole)
+      work_.template finish<Fit::whole>(p, state_[n], factor_[n], stress2_[n], seen);
+    else if (p.fit == Fit::overlapping)
+      finish_tail<Fit::overlapping>(p, n, seen);
+    else
+      finish_tail<Fit::beyond_end>(p, n, seen);
+  }
+  [[gnu::always_inline]] void collide(unsigned k, Seen<P>& seen) {
+    const Place<T>& p = place_[k % ring];
+    if constexpr (masked)
+      work_.template collide<Fit::lanes>(p, seen);
+    else if (p.fit == Fit::whole)
+      work_.template collide<Fit::whole>(p, seen);
+    else if (p.fit == Fit::overlapping)
+      work_.template collide<Fit::overlapping>(p, seen);
+    else
+      work_.template collide<Fit::beyond_end>(p, seen);
+  }
   [[gnu::noinline]] void read_tail(const Place<T>& p, CellState<P>& state) const {
-    work_.template read<fit>(p, state);
+    work_.template read<Fit::beyond_end>(p, state);
   }
   template <Fit fit>
-  [[gnu::noinline]] void finish_tail(const Place<T>& p, const CellState<P>& state, const P& factor,
-                                     Seen<P>& seen) const {
-    work_.template finish<fit>(p, state, factor, seen);
+  [[gnu::noinline]] void finish_tail(const Place<T>& p, unsigned n, Seen<P>& seen) const {
+    work_.template finish<fit>(p, state_[n], factor_[n], stress2_[n], seen);
   }
 
   PackWork<T, L, Forced> work_;
-  Packs packs_[2];
-  Packs *now_ = &packs_[0], *next_ = &packs_[1];  // while one is treated the other is gathered, and on its way
-  Places pending_places_;
-  Place<T> pending_{};  // the end of a run that waits for another to join; end = 0: none
-  CellState<P> state_[size];
-  P factor_[size];
+  T* from_[ring + 1][19];  // places of the spans or runs that packs on their way lie in
+  Place<T> place_[ring];
+  CellState<P> state_[states];
+  P factor_[states], stress2_[states];  // first what the eddy viscosity is made of, then 1 - omega
+  unsigned spans_ = 0, count_ = 0, tick_ = 0;
 };
 
 template <class T, class L>
 KernelReport sweep(const KernelInput<T>& in) {
   const FlushToZero flush;
   Seen<Pack<T>> seen;
-  Batch<T, L, true> forced(in);
-  Batch<T, L, false> free(in);
+  Pipeline<T, L, true> forced(in);
+  Pipeline<T, L, false> free(in);
   for (int r = in.first_run; r < in.last_run; ++r) {
     const std::uint8_t flags = in.run_flags[r];
+    const Run& first = in.runs[r];
+    const auto add = [&](auto& pipeline) {
+      if constexpr (masked) {
+        while (r + 1 < in.last_run && in.runs[r + 1].span == first.span && in.run_flags[r + 1] == flags) ++r;
+        pipeline.add_span(first, in.runs[r], in.active_lanes, flags, seen);
+      } else {
+        pipeline.add(first, flags, seen);
+      }
+    };
     if (in.forced_everywhere || (flags & run_forced))
-      forced.add(in.runs[r], flags, seen);
+      add(forced);
     else
-      free.add(in.runs[r], flags, seen);
+      add(free);
   }
   forced.flush(seen);
   free.flush(seen);

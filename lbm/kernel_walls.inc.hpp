@@ -39,35 +39,49 @@ template <class T>
   }
 }
 
-/// Reflection for the cells of one pack (or one cell: V = T) from cell n of the wall run on.
+/// Reflection for cell n of the wall run and those after it, as many as `load` and `store` take.
 template <class V, class T>
-[[gnu::always_inline]] inline void reflect(const WallLinks<T>& links, bool moving, T speed, int n) {
-  const auto load = [n]<class S>(const S* p) __attribute__((always_inline)) {
-    if constexpr (std::is_same_v<V, T>)
-      return static_cast<T>(p[n]);
-    else if constexpr (std::is_same_v<S, T>)
-      return V(p + n, stdx::element_aligned);
-    else
-      return load_float<T>(p + n);
-  };
-  const auto store = [n](const V& v, T* p) __attribute__((always_inline)) {
-    if constexpr (std::is_same_v<V, T>)
-      p[n] = v;
-    else
-      v.copy_to(p + n, stdx::element_aligned);
-  };
+[[gnu::always_inline]] inline void reflect(const WallLinks<T>& links, bool moving, T speed, int n, const auto& load,
+                                           const auto& store) {
   V imbalance = constant<V>(0);
   for (int k = 0; k < links.count; ++k) {
-    const V out = load(links.out[k]);
-    V change = load(links.weight[k]) * (load(links.partner[k]) - out);
+    const V out = load(links.out[k] + n);
+    V change = load(links.weight[k] + n) * (load(links.partner[k] + n) - out);
     imbalance = imbalance - change;
     if (moving) {
-      imbalance = imbalance - V(speed) * load(links.returned[k]);
-      change = change + V(speed) * load(links.moving[k]);
+      imbalance = imbalance - V(speed) * load(links.returned[k] + n);
+      change = change + V(speed) * load(links.moving[k] + n);
     }
-    store(out + change, links.back[k]);
+    store(out + change, links.back[k] + n);
   }
-  store(load(links.rest) + imbalance, links.rest);
+  store(load(links.rest + n) + imbalance, links.rest + n);
+}
+/// For a whole pack.
+template <class T>
+[[gnu::always_inline]] inline void reflect_pack(const WallLinks<T>& links, bool moving, T speed, int n) {
+  using P = Pack<T>;
+  const auto load = []<class S>(const S* p) __attribute__((always_inline)) {
+    if constexpr (std::is_same_v<S, T>)
+      return P(p, stdx::element_aligned);
+    else
+      return load_float<T>(p);
+  };
+  const auto store = [](const P& v, T* p) __attribute__((always_inline)) { v.copy_to(p, stdx::element_aligned); };
+  reflect<P>(links, moving, speed, n, load, store);
+}
+/// For the last `count` cells of a wall run, fewer than a pack.
+template <class T>
+[[gnu::always_inline]] inline void reflect_rest(const WallLinks<T>& links, bool moving, T speed, int n, int count) {
+#ifdef __AVX512F__
+  const auto lanes = lane_set<T>((1U << count) - 1U);
+  const auto load = [lanes](const auto* p) __attribute__((always_inline)) { return load_lanes(p, lanes); };
+  const auto store = [lanes](const Pack<T>& v, T* p) __attribute__((always_inline)) { store_lanes(v, lanes, p); };
+  reflect<Pack<T>>(links, moving, speed, n, load, store);
+#else
+  const auto load = [](const auto* p) __attribute__((always_inline)) { return static_cast<T>(*p); };
+  const auto store = [](T v, T* p) __attribute__((always_inline)) { *p = v; };
+  for (const int end = n + count; n < end; ++n) reflect<T>(links, moving, speed, n, load, store);
+#endif
 }
 
 /// Values at scattered places, and back.
@@ -151,8 +165,8 @@ void walls(const WallInput<T>& in) {
     const WallRun& wall = in.walls[w];
     find_links(in, wall, links);
     int n = 0;
-    for (; n + width <= wall.count; n += width) reflect<P>(links, wall.moving, speed, n);
-    for (; n < wall.count; ++n) reflect<T>(links, wall.moving, speed, n);
+    for (; n + width <= wall.count; n += width) reflect_pack(links, wall.moving, speed, n);
+    if (n < wall.count) reflect_rest(links, wall.moving, speed, n, wall.count - n);
   }
   for (std::size_t g = in.first_group; g < in.last_group; ++g) reflect_group(in, in.groups[g]);
 }

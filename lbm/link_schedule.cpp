@@ -10,7 +10,7 @@ namespace puffin::lbm {
 
 namespace {
 
-constexpr int long_run = group_unit;  // cells that fill a pack of any width
+constexpr int long_run = 4;  // cells: their neighbours are read at once, those of groups one by one
 
 /// Chunk of every run.
 std::vector<std::int32_t> chunk_of_runs(const Rows& rows) {

@@ -9,25 +9,36 @@ namespace {
 
 int wrapped(int i, int n) { return (i % n + n) % n; }
 
+/// Unites overlapping and touching intervals.
+void unite(std::vector<geometry::FluidRun>& intervals) {
+  std::sort(intervals.begin(), intervals.end(), [](const auto& a, const auto& b) { return a.begin < b.begin; });
+  std::size_t kept = 0;
+  for (const geometry::FluidRun& i : intervals) {
+    if (kept > 0 && i.begin <= intervals[kept - 1].end)
+      intervals[kept - 1].end = std::max(intervals[kept - 1].end, i.end);
+    else
+      intervals[kept++] = i;
+  }
+  intervals.resize(kept);
+}
+
 /// The cells of a row (ghost rows too) that must be stored: active ones and every cell they stream to or from, as
-/// maximal intervals. Neighbours in two of y, z at once are streamed to straight, without a step along x.
-void stored_cells(const geometry::Voxels& voxels, int j, int k, std::vector<geometry::FluidRun>& stored) {
+/// maximal intervals. Neighbours in two of y, z at once are streamed to straight, without a step along x. `room`: the
+/// same with that step, which makes the rows around a straight duct equally long.
+void stored_cells(const geometry::Voxels& voxels, int j, int k, std::vector<geometry::FluidRun>& stored,
+                  std::vector<geometry::FluidRun>& room) {
   stored.clear();
+  room.clear();
   for (int cz = -1; cz <= 1; ++cz)
     for (int cy = -1; cy <= 1; ++cy) {
       const int more = cy != 0 && cz != 0 ? 0 : 1;
-      for (const geometry::FluidRun& run : voxels.row(j + cy, k + cz))
+      for (const geometry::FluidRun& run : voxels.row(j + cy, k + cz)) {
         stored.push_back({run.begin - more, run.end + more});
+        room.push_back({run.begin - 1, run.end + 1});
+      }
     }
-  std::sort(stored.begin(), stored.end(), [](const auto& a, const auto& b) { return a.begin < b.begin; });
-  std::size_t kept = 0;
-  for (const geometry::FluidRun& run : stored) {
-    if (kept > 0 && run.begin <= stored[kept - 1].end)
-      stored[kept - 1].end = std::max(stored[kept - 1].end, run.end);
-    else
-      stored[kept++] = run;
-  }
-  stored.resize(kept);
+  unite(stored);
+  unite(room);
 }
 
 }  // namespace
@@ -43,21 +54,17 @@ Rows::Rows(const geometry::Voxels& voxels, std::array<bool, 3> periodic)
   // D3Q19 has no (1,1,1) links, but a run's shift must hold for all of cx = -1, 0, 1 that are used with (cy,cz).
   row_begin_.assign(static_cast<std::size_t>(sy) * sz + 1, 0);
   std::ptrdiff_t next = padding;
-  std::vector<geometry::FluidRun> stored;
+  std::vector<geometry::FluidRun> stored, room;
   for (int k = -1; k <= nz; ++k)
     for (int j = -1; j <= ny; ++j) {
       row_begin_[(j + 1) + static_cast<std::size_t>(sy) * (k + 1)] = static_cast<std::int32_t>(stretches_.size());
-      stored_cells(voxels, j, k, stored);
-      const auto fluid = voxels.row(j, k);
-      auto first_fluid = fluid.begin();
-      for (const geometry::FluidRun& stretch : stored) {
-        while (first_fluid != fluid.end() && first_fluid->begin < stretch.begin) ++first_fluid;
-        // The first active cell lies on a vector boundary (in rows of ghosts alone the second cell: it is beside one).
-        const bool ghosts = first_fluid == fluid.end() || first_fluid->begin >= stretch.end;
-        const int lead = ghosts ? 1 : first_fluid->begin - stretch.begin;
-        next += (padding - (next + lead) % padding) % padding;
-        stretches_.push_back({stretch.begin, stretch.end - stretch.begin, next});
-        next += stretch.end - stretch.begin + 1;  // never adjacent to the following stretch
+      stored_cells(voxels, j, k, stored, room);
+      auto first_stored = stored.begin();
+      for (const geometry::FluidRun& place : room) {
+        for (; first_stored != stored.end() && first_stored->begin < place.end; ++first_stored)
+          stretches_.push_back({first_stored->begin, first_stored->end - first_stored->begin,
+                                next + (first_stored->begin - place.begin)});
+        next += place.end - place.begin;
       }
     }
   row_begin_.back() = static_cast<std::int32_t>(stretches_.size());
@@ -83,10 +90,13 @@ Rows::Rows(const geometry::Voxels& voxels, std::array<bool, 3> periodic)
         std::fill_n(kind_.begin() + run.first, run.count, Kind::active);
         for (int cy = -1; cy <= 1; ++cy)
           for (int cz = -1; cz <= 1; ++cz) run.shift[cy + 1][cz + 1] = slot(run.x, j + cy, k + cz) - run.first;
+        if (!runs_.empty()) run.span = runs_.back().span + (run.shift == runs_.back().shift ? 0 : 1);
         runs_.push_back(run);
       }
 
+  active_lanes_.assign(slots_ / 16 + 2, 0);
   for (std::size_t s = 0; s < slots_; ++s) {
+    if (kind_[s] == Kind::active) active_lanes_[s / 16] |= static_cast<std::uint16_t>(1U << s % 16);
     if (kind_[s] != Kind::ghost) continue;
     const auto c = cell_[s];
     const std::ptrdiff_t image = active_slot(c[0], c[1], c[2]);

@@ -7,6 +7,10 @@
 //     slot(x + cx, y + cy, z + cz) = slot(x, y, z) + cx + run.shift[cy][cz].
 // A kernel needs one offset a run and direction, no index a cell, and no test for walls: what streams out of the fluid
 // lands in a ghost slot, where the links (walls, inlet, outlet, periodic faces) pick it up.
+//
+// Rows follow each other without a gap. In a straight duct all rows are equally long, so all of its runs have the same
+// shifts: together they are one span of slots, of which a kernel can take whole packs, ghosts between the rows included,
+// with a mask of the lanes that are cells (docs/decisions/0024-packs-across-rows.md).
 
 #include <array>
 #include <cstddef>
@@ -20,7 +24,7 @@ namespace puffin::lbm {
 
 class Rows {
  public:
-  /// Vector lanes a row may be over-read by; every row is padded by this many slots.
+  /// Vector lanes a row may be over-read by: before the first and behind the last slot in use are this many more.
   static constexpr int padding = 16;
 
   Rows() = default;
@@ -32,6 +36,8 @@ class Rows {
   std::size_t active_cells() const { return active_; }
   const std::vector<Run>& runs() const { return runs_; }
   const std::vector<Chunk>& chunks() const { return chunks_; }
+  /// Bit b of number n: slot 16 n + b is an active cell.
+  const std::vector<std::uint16_t>& active_lanes() const { return active_lanes_; }
   /// Slot of cell (i,j,k), or -1 where nothing is stored. Periodic directions are not wrapped.
   std::ptrdiff_t slot(int i, int j, int k) const;
   /// Slot of cell (i,j,k) if that cell is active (periodic directions wrapped), else -1.
@@ -61,6 +67,7 @@ class Rows {
   std::size_t slots_ = 0, active_ = 0;
   std::vector<Run> runs_;
   std::vector<Chunk> chunks_;
+  std::vector<std::uint16_t> active_lanes_;
   std::vector<Kind> kind_;
   std::vector<std::array<int, 3>> cell_;
   std::vector<std::array<std::ptrdiff_t, 2>> images_;

@@ -83,6 +83,21 @@ TEST(Step, TheScheduleHoldsEveryWallCellOnce) {
   EXPECT_FALSE(schedule.runs.empty());
 }
 
+TEST(Rows, OfAStraightDuctAreOneSpan) {
+  const BoxScene scene = make_box(Vec3(22, 9, 7), 1.0, {wall(), wall(), wall(), wall(), wall(), wall()});
+  const Rows rows(scene.voxels);
+  const std::vector<lbm::Run>& runs = rows.runs();
+  ASSERT_EQ(runs.size(), 9U * 7U);
+  for (std::size_t r = 1; r < runs.size(); ++r) {
+    EXPECT_EQ(runs[r].span, runs[0].span);
+    EXPECT_EQ(runs[r].shift, runs[0].shift);
+    // A ghost at each end and no room between them; two rows of ghosts between planes.
+    EXPECT_EQ(runs[r].first - runs[r - 1].first, runs[r].z == runs[r - 1].z ? 24 : 3 * 24);
+  }
+  for (std::size_t s = 0; s < rows.slots(); ++s)
+    EXPECT_EQ((rows.active_lanes()[s / 16] >> s % 16 & 1) != 0, rows.is_active(static_cast<std::ptrdiff_t>(s))) << s;
+}
+
 // Rows of every length up to two packs of the widest processor, so that ends of rows are masked, overlap, or share a
 // pack with another. Populations are at most 0.02 here; each of about 200 roundings changes them by at most
 // 0.02 x 6e-8, while a cell that is left out differs by the collision itself, about 1e-3.
