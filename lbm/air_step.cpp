@@ -3,7 +3,6 @@
 
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
 
@@ -11,6 +10,7 @@
 #include "lbm/link_schedule.hpp"
 #include "lbm/markers.hpp"
 #include "lbm/openings.hpp"
+#include "lbm/parts.hpp"
 #include "lbm/slip.hpp"
 #include "lbm/wall_model.hpp"
 #include "lbm/wall_schemes.hpp"
@@ -190,7 +190,8 @@ KernelReport collide_and_stream(const CollisionConstants& constants, const Drive
   std::visit(
       [&]<class T>(Populations<T>& p) {
         const Collide<T> collide(constants, drive, air, p);
-        for_each_chunk(air.rows, [&](int c, const Chunk& chunk) { reports[c] = collide(chunk); });
+        for_each_in_parts(static_cast<int>(air.rows.chunks().size()),
+                          [&](int c, int) { reports[c] = collide(air.rows.chunks()[c]); });
       },
       air.populations);
   const KernelReport all = merged(reports);
@@ -223,29 +224,22 @@ KernelReport advance_air(const CollisionConstants& constants, const Drive& drive
     return report;
   }
   const int chunks = static_cast<int>(air.rows.chunks().size());
-  const int parts = std::min(chunks, oneapi::tbb::this_task_arena::max_concurrency());
-  const auto begin_of = [&](int part) { return static_cast<int>(static_cast<std::int64_t>(chunks) * part / parts); };
-  const auto for_each_part = [&](const auto& body) {
-    oneapi::tbb::parallel_for(0, parts, body, oneapi::tbb::static_partitioner());
-  };
   std::vector<KernelReport> reports(chunks);
   std::vector<std::int64_t> backflow(chunks, 0);
+  std::vector<int> begin_of(chunks);  // the first chunk that was collided in one go before it
   std::visit(
       [&]<class T>(Populations<T>& p) {
         const Parity last = p.next;
         const Collide<T> collide(constants, drive, air, p);
         const ApplyLinks<T> apply(drive, air, p);
-        for_each_part([&](int part) {
-          for (int c = begin_of(part); c < begin_of(part + 1); ++c) {
-            reports[c] = collide(air.rows.chunks()[c]);
-            backflow[c] = apply.openings(c);  // before the walls, as in apply_links
-            apply.ready_walls(c, begin_of(part));
-          }
+        for_each_in_parts(chunks, [&](int c, int begin) {
+          reports[c] = collide(air.rows.chunks()[c]);
+          backflow[c] = apply.openings(c);  // before the walls, as in apply_links
+          begin_of[c] = begin;
+          apply.ready_walls(c, begin);
         });
         cross_periodic_faces(air.links, last, p);
-        for_each_part([&](int part) {
-          for (int c = begin_of(part); c < begin_of(part + 1); ++c) apply.late_walls(c, begin_of(part));
-        });
+        for_each_in_parts(chunks, [&](int c, int) { apply.late_walls(c, begin_of[c]); });
         end_step(last, p, air);
       },
       air.populations);
