@@ -45,54 +45,51 @@ void stored_cells(const geometry::Voxels& voxels, int j, int k, std::vector<geom
 
 Rows::Rows(const geometry::Voxels& voxels, std::array<bool, 3> periodic)
     : origin_(voxels.origin), dx_(voxels.dx), box_(voxels.size), periodic_(periodic) {
-  const int ny = box_[1], nz = box_[2], sy = ny + 2, sz = nz + 2;
+  const int ny = box_[1], nz = box_[2];
   active_ = voxels.cells();
   if (active_ == 0) throw std::invalid_argument("no cell centre lies inside the surface: dx is too large");
 
   // Rows: along x every cell beside an active cell of the row or of a neighbouring row must be contiguous with it, so a
   // stretch is a maximal interval of stored cells, widened where (x, y+cy, z+cz) of a run would fall outside.
   // D3Q19 has no (1,1,1) links, but a run's shift must hold for all of cx = -1, 0, 1 that are used with (cy,cz).
-  row_begin_.assign(static_cast<std::size_t>(sy) * sz + 1, 0);
+  row_begin_.assign(static_cast<std::size_t>(ny + 2) * (nz + 2) + 1, 0);
   std::ptrdiff_t next = padding;
   std::vector<geometry::FluidRun> stored, room;
-  for (int k = -1; k <= nz; ++k)
-    for (int j = -1; j <= ny; ++j) {
-      row_begin_[(j + 1) + static_cast<std::size_t>(sy) * (k + 1)] = static_cast<std::int32_t>(stretches_.size());
-      stored_cells(voxels, j, k, stored, room);
-      auto first_stored = stored.begin();
-      for (const geometry::FluidRun& place : room) {
-        for (; first_stored != stored.end() && first_stored->begin < place.end; ++first_stored)
-          stretches_.push_back({first_stored->begin, first_stored->end - first_stored->begin,
-                                next + (first_stored->begin - place.begin)});
-        next += place.end - place.begin;
-      }
+  for_each_row(1, [&](int j, int k) {
+    row_begin_[row(j, k)] = static_cast<std::int32_t>(stretches_.size());
+    stored_cells(voxels, j, k, stored, room);
+    auto first_stored = stored.begin();
+    for (const geometry::FluidRun& place : room) {
+      for (; first_stored != stored.end() && first_stored->begin < place.end; ++first_stored)
+        stretches_.push_back({first_stored->begin, first_stored->end - first_stored->begin,
+                              next + (first_stored->begin - place.begin)});
+      next += place.end - place.begin;
     }
+  });
   row_begin_.back() = static_cast<std::int32_t>(stretches_.size());
   slots_ = static_cast<std::size_t>(next + padding);
   kind_.assign(slots_, Kind::padding);
   cell_.assign(slots_, {-2, -2, -2});
-  for (int k = -1; k <= nz; ++k)
-    for (int j = -1; j <= ny; ++j) {
-      const std::size_t row = (j + 1) + static_cast<std::size_t>(sy) * (k + 1);
-      for (int s = row_begin_[row]; s < row_begin_[row + 1]; ++s)
-        for (int n = 0; n < stretches_[s].count; ++n) {
-          kind_[stretches_[s].first + n] = Kind::ghost;
-          cell_[stretches_[s].first + n] = {stretches_[s].x + n, j, k};
-        }
-    }
+  for_each_row(1, [&](int j, int k) {
+    for (int s = row_begin_[row(j, k)]; s < row_begin_[row(j, k) + 1]; ++s)
+      for (int n = 0; n < stretches_[s].count; ++n) {
+        kind_[stretches_[s].first + n] = Kind::ghost;
+        cell_[stretches_[s].first + n] = {stretches_[s].x + n, j, k};
+      }
+  });
 
   // Runs of active cells. All nine neighbouring rows store x-1..x+1 only where D3Q19 links go; (cy,cz) both non-zero is
   // used with cx = 0 alone, and there the stretch covers x itself, which is all that is read.
-  for (int k = 0; k < nz; ++k)
-    for (int j = 0; j < ny; ++j)
-      for (const geometry::FluidRun& fluid : voxels.row(j, k)) {
-        Run run{fluid.begin, j, k, fluid.end - fluid.begin, slot(fluid.begin, j, k), {}};
-        std::fill_n(kind_.begin() + run.first, run.count, Kind::active);
-        for (int cy = -1; cy <= 1; ++cy)
-          for (int cz = -1; cz <= 1; ++cz) run.shift[cy + 1][cz + 1] = slot(run.x, j + cy, k + cz) - run.first;
-        if (!runs_.empty()) run.span = runs_.back().span + (run.shift == runs_.back().shift ? 0 : 1);
-        runs_.push_back(run);
-      }
+  for_each_row(0, [&](int j, int k) {
+    for (const geometry::FluidRun& fluid : voxels.row(j, k)) {
+      Run run{fluid.begin, j, k, fluid.end - fluid.begin, slot(fluid.begin, j, k), {}};
+      std::fill_n(kind_.begin() + run.first, run.count, Kind::active);
+      for (int cy = -1; cy <= 1; ++cy)
+        for (int cz = -1; cz <= 1; ++cz) run.shift[cy + 1][cz + 1] = slot(run.x, j + cy, k + cz) - run.first;
+      if (!runs_.empty()) run.span = runs_.back().span + (run.shift == runs_.back().shift ? 0 : 1);
+      runs_.push_back(run);
+    }
+  });
 
   active_lanes_.assign(slots_ / 16 + 2, 0);
   for (std::size_t s = 0; s < slots_; ++s) {
@@ -119,10 +116,24 @@ Rows::Rows(const geometry::Voxels& voxels, std::array<bool, 3> periodic)
   }
 }
 
+std::size_t Rows::row(int j, int k) const {
+  const bool along_z = box_[2] < box_[1];
+  return along_z ? (k + 1) + static_cast<std::size_t>(box_[2] + 2) * (j + 1)
+                 : (j + 1) + static_cast<std::size_t>(box_[1] + 2) * (k + 1);
+}
+
+template <class Body>
+void Rows::for_each_row(int margin, const Body& body) const {
+  const bool along_z = box_[2] < box_[1];
+  for (int outer = -margin; outer < std::max(box_[1], box_[2]) + margin; ++outer)
+    for (int inner = -margin; inner < std::min(box_[1], box_[2]) + margin; ++inner)
+      along_z ? body(outer, inner) : body(inner, outer);
+}
+
 std::ptrdiff_t Rows::slot(int i, int j, int k) const {
   if (i < -1 || j < -1 || k < -1 || i > box_[0] || j > box_[1] || k > box_[2]) return -1;
-  const std::size_t row = (j + 1) + static_cast<std::size_t>(box_[1] + 2) * (k + 1);
-  for (int s = row_begin_[row]; s < row_begin_[row + 1]; ++s)
+  const std::size_t here = row(j, k);
+  for (int s = row_begin_[here]; s < row_begin_[here + 1]; ++s)
     if (i >= stretches_[s].x && i < stretches_[s].x + stretches_[s].count)
       return stretches_[s].first + (i - stretches_[s].x);
   return -1;

@@ -59,6 +59,11 @@ class Rows {
   std::array<bool, 3> periodic() const { return periodic_; }
 
  private:
+  /// Rows in the order in which they lie in memory: along the shorter one of y and z first, so that neighbours of a cell in
+  /// a flat device are not far.
+  std::size_t row(int j, int k) const;
+  template <class Body>
+  void for_each_row(int margin, const Body& body) const;  // body(j, k); margin 1: the rows of ghosts around too
   enum class Kind : std::uint8_t { padding, ghost, active };
   struct Stretch {
     int x = 0, count = 0;
@@ -72,7 +77,7 @@ class Rows {
   std::vector<std::array<int, 3>> cell_;
   std::vector<std::array<std::ptrdiff_t, 2>> images_;
   std::vector<Stretch> stretches_;       // stored stretches, row by row
-  std::vector<std::int32_t> row_begin_;  // per (y,z) incl. the ghost border: first stretch; size rows+1
+  std::vector<std::int32_t> row_begin_;  // per row() incl. the ghost border: first stretch; size rows+1
   geometry::Vec3 origin_ = geometry::Vec3::Zero();
   double dx_ = 0.0;
   std::array<int, 3> box_{0, 0, 0};
