@@ -43,13 +43,11 @@ struct Arithmetic {
 template <int I>
 using Index = std::integral_constant<int, I>;
 
-/// body(Index<0>()), ..., body(Index<N - 1>()): unlike a loop it leaves the compiler no doubt which member of an array is
-/// meant, so the arrays of a law stay in registers.
+/// body(Index<0>()), ..., body(Index<N - 1>()): unlike a loop it leaves the compiler no doubt which member of an array
+/// is meant, so the arrays of a law stay in registers.
 template <int N, class Body>
 [[gnu::always_inline]] inline void each(const Body& body) {
-  [&]<int... I>(std::integer_sequence<int, I...>) __attribute__((always_inline)) {
-    (body(Index<I>()), ...);
-  }
+  [&]<int... I>(std::integer_sequence<int, I...>) __attribute__((always_inline)) { (body(Index<I>()), ...); }
   (std::make_integer_sequence<int, N>());
 }
 
@@ -85,8 +83,8 @@ struct RawMoments {
   Real m[6];  // sum_i g_i c_a c_b, order as Pi
 };
 
-/// Reads the 19 populations once and returns their sums: drho = sum_i g_i, j = sum_i g_i c_i, m = sum_i g_i c_a c_b. (By
-/// references to where they are wanted: a copy of them in memory costs a third of the reading.)
+/// Reads the 19 populations once and returns their sums: drho = sum_i g_i, j = sum_i g_i c_i, m = sum_i g_i c_a c_b.
+/// (By references to where they are wanted: a copy of them in memory costs a third of the reading.)
 template <class Real, class Get>
 [[gnu::always_inline]] inline void sum_moments(const Get& get, Real& drho, Real (&j)[3], Real (&m)[6]) {
   // The four diagonals of a plane (a,b), in the order ++, --, +-, -+.

@@ -55,8 +55,8 @@ template <bool Forced, class Real, class Get>
   find_stress<Forced>(force, les, s);
 }
 
-/// Relaxation of the stress: returns 1 - omega. `les` = 18 sqrt2 L^2/rho. On return stress2 is no less than the square of
-/// the relaxed stress.
+/// Relaxation of the stress: returns 1 - omega. `les` = 18 sqrt2 L^2/rho. On return stress2 is no less than the square
+/// of the relaxed stress.
 struct RelaxStress {
   static double old_force(const CollisionConstants&) { return 1.0; }  // factor of the force in the units of the state
 
@@ -157,7 +157,8 @@ template <class Real, class Put, int First>
 
 }  // namespace detail
 
-/// Where no population of Rr3 without a force can be below w_i/10, so that the positivity limiter need not look at them:
+/// Where no population of Rr3 without a force can be below w_i/10, so that the positivity limiter need not look at
+/// them:
 ///   |u|^2/0.3^2 + |p|^2/0.02^2 + (rho - 1)^2/0.1^2 < 1,
 /// p the relaxed stress. For a diagonal, m = c u (abs(m) <= sqrt2 u), and by Cauchy-Schwarz in the stress,
 ///   f/w >= rho (1 + 3 m + 9/2 m^2 - 3/2 u^2 - 6.4 u^3) - (9 + 20.2 u) |p|

@@ -62,7 +62,7 @@ struct KernelInput {
   T* f = nullptr;  // populations, 19 arrays of `stride` values
   std::size_t stride = 0;
   const Run* runs = nullptr;
-  const std::uint8_t* run_flags = nullptr;  // per run
+  const std::uint8_t* run_flags = nullptr;      // per run
   const std::uint16_t* active_lanes = nullptr;  // of Rows
   int first_run = 0, last_run = 0;
   Parity parity = Parity::even;

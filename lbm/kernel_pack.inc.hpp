@@ -29,9 +29,9 @@ struct Seen {
   std::int64_t limited = 0;
 };
 
-/// How a pack lies among the cells. Without masks (masked = false) it belongs to one run: whole; over cells that the pack
-/// before it does (lanes below `skip`); or beyond the end of the run, where the lanes from `end` on belong to others,
-/// perhaps to another thread. With masks it lies anywhere in a span of runs: those of its lanes that are cells.
+/// How a pack lies among the cells. Without masks (masked = false) it belongs to one run: whole; over cells that the
+/// pack before it does (lanes below `skip`); or beyond the end of the run, where the lanes from `end` on belong to
+/// others, perhaps to another thread. With masks it lies anywhere in a span of runs: those of its lanes that are cells.
 enum class Fit { whole, overlapping, beyond_end, lanes };
 
 /// One pack of slots. Direction i of slot `origin` is found at from[i]: in its own slots before an even step, in those
@@ -113,7 +113,8 @@ class PackWork {
     force_at(p, 1.0, force);
     const CellMoments<P> m{s.drho, s.u[0], s.u[1], s.u[2]};
     const P speed2 = m.ux * m.ux + m.uy * m.uy + m.uz * m.uz;
-    // Positivity, f_i >= w_i/10. The populations are stored at once; in the rare case they are made again from the state.
+    // Positivity, f_i >= w_i/10. The populations are stored at once; in the rare case they are made again from the
+    // state.
     if constexpr (!Forced && requires { L::positive_near_rest; }) {
       L::template assemble<Forced>(
           s, force, [&](auto i, const P& v) __attribute__((always_inline)) { store<fit>(p, i, mine, v); });
@@ -200,20 +201,26 @@ class PackWork {
             {u[0], u[1], u[2]},
             {p[0] * factor, p[1] * factor, p[2] * factor, p[3] * factor, p[4] * factor, p[5] * factor}};
   }
-  /// Writes the populations of a pack anew where the limiter acts; returns in how many of its cells.
+  /// Writes the populations of a pack anew in the cells in which the limiter acts; returns how many. The others keep
+  /// theirs to the last bit: what a cell becomes does not depend on the cells that share its pack.
   template <Fit fit>
   [[gnu::noinline, gnu::cold]] int write_limited(const Place<T>& p, const CellState<P>& unrelaxed,
                                                  const P& factor) const {
-    const auto mine = lanes<fit>(p);
     CellState<P> s = relaxed(unrelaxed, factor);
-    P force[3], rest, axis, diagonal;
+    P force[3], rest, axis, diagonal, limited[19];
     force_at(p, 1.0, force);
     L::template assemble<Forced>(s, force, [&](auto i, const P& v) { take_lowest(i, v, rest, axis, diagonal); });
-    const int negative = count_below(lowest(rest, axis, diagonal), T(-0.9), mine);
-    if (negative == 0) return 0;
+    const P low = lowest(rest, axis, diagonal);
     limit_stress<L, Forced>(force, s);
-    L::template assemble<Forced>(s, force, [&](auto i, const P& v) { store<fit>(p, i, mine, v); });
-    return negative;
+    L::template assemble<Forced>(s, force, [&](auto i, const P& v) { limited[i] = v; });
+    int cells = 0;
+    for (int l = 0; l < width; ++l) {
+      const bool mine = fit == Fit::lanes ? (p.lanes >> l & 1U) != 0 : l >= p.skip && l < p.end;
+      if (!mine || !(low[l] < T(-0.9))) continue;
+      for (int i = 0; i < d3q19::q; ++i) p.from[d3q19::opposite(i)][p.n + l] = limited[i][l];
+      ++cells;
+    }
+    return cells;
   }
   /// The smallest g_i of the axes, and of the diagonals.
   template <int I>

@@ -1,8 +1,8 @@
 // Collision and streaming of the runs of a chunk, part of a kernel unit (kernel_isa.inc.hpp). Packs are taken from the
-// runs in order and go through a pipeline: while one is fetched, the third after it is read, the next are given their
-// stress and their relaxation time, and a sixth is written (docs/decisions/0025-a-pipeline-of-packs.md). So no
-// instruction waits for the square roots and divisions of its own pack, nor for memory: what a stage needs was ready
-// when the stage before it ended, a hundred cycles ago. Packs of several runs follow each other without a gap.
+// runs in order and go through a pipeline: while one is read, the one before it is given its stress, the one before
+// that its relaxation time, and a fourth is written. So no instruction waits for the square roots and divisions of its
+// own pack: what a stage needs was ready when the stage before it ended, a hundred cycles ago. Packs of several runs
+// follow each other without a gap. See docs/decisions/0024-packs-across-rows.md.
 
 template <class T, class L, bool Forced>
 class Pipeline {
@@ -16,8 +16,7 @@ class Pipeline {
   void add(const Run& run, std::uint8_t flags, Seen<P>& seen) {
     T* const* const from = find_places(run, run.first);
     int n = 0;
-    for (; n + width <= run.count; n += width)
-      put({from, run.first + n, n, 0, width, 0, Fit::whole, flags}, seen);
+    for (; n + width <= run.count; n += width) put({from, run.first + n, n, 0, width, 0, Fit::whole, flags}, seen);
     if (n == run.count) return;
     const int left = run.count - n;
     if (n > 0)
@@ -72,24 +71,30 @@ class Pipeline {
       if (k < count) body(k);  // not before the first one (k has wrapped around) and not after the last
     };
     if constexpr (requires { &L::template relax<P>; }) {
-      stage(ahead + 3, [&](unsigned k) __attribute__((always_inline)) { finish(k, seen); });
-      stage(ahead + 2, [&](unsigned k) __attribute__((always_inline)) {
-        const unsigned n = k % states;
-        factor_[n] = work_.relax(factor_[n], state_[n], stress2_[n]);
-      });
-      stage(ahead + 1, [&](unsigned k) __attribute__((always_inline)) {
-        work_.stress(place_[k % ring], factor_[k % states], state_[k % states]);
-      });
-      stage(ahead, [&](unsigned k) __attribute__((always_inline)) { read(k); });
+      stage(
+          ahead + 3, [&](unsigned k) __attribute__((always_inline)) { finish(k, seen); });
+      stage(
+          ahead + 2, [&](unsigned k) __attribute__((always_inline)) {
+            const unsigned n = k % states;
+            factor_[n] = work_.relax(factor_[n], state_[n], stress2_[n]);
+          });
+      stage(
+          ahead + 1, [&](unsigned k) __attribute__((always_inline)) {
+            work_.stress(place_[k % ring], factor_[k % states], state_[k % states]);
+          });
+      stage(
+          ahead, [&](unsigned k) __attribute__((always_inline)) { read(k); });
     } else {
-      stage(ahead, [&](unsigned k) __attribute__((always_inline)) { collide(k, seen); });
+      stage(
+          ahead, [&](unsigned k) __attribute__((always_inline)) { collide(k, seen); });
     }
     if constexpr (ahead > 0)
-      stage(0, [&](unsigned k) __attribute__((always_inline)) {
-        const Place<T>& p = place_[k % ring];
+      stage(
+          0, [&](unsigned k) __attribute__((always_inline)) {
+            const Place<T>& p = place_[k % ring];
 #pragma GCC unroll 19
-        for (int i = 0; i < 19; ++i) __builtin_prefetch(p.from[i] + p.n, 1, 3);
-      });
+            for (int i = 0; i < 19; ++i) __builtin_prefetch(p.from[i] + p.n, 1, 3);
+          });
   }
 
   [[gnu::always_inline]] void read(unsigned k) {

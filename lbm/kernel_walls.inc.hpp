@@ -79,7 +79,7 @@ template <class T>
   reflect<Pack<T>>(links, moving, speed, n, load, store);
 #else
   const auto load = [](const auto* p) __attribute__((always_inline)) { return static_cast<T>(*p); };
-  const auto store = [](T v, T* p) __attribute__((always_inline)) { *p = v; };
+  const auto store = [](T v, T * p) __attribute__((always_inline)) { *p = v; };
   for (const int end = n + count; n < end; ++n) reflect<T>(links, moving, speed, n, load, store);
 #endif
 }
@@ -134,10 +134,12 @@ void reflect_group(const WallInput<T>& in, const WallGroup& group) {
                    even ? slot : beyond, own ? slot : behind, even ? beyond : slot};
   }
   const P speed(static_cast<T>(in.wall_speed));
-  // Packs of nothing but the repeated last cell are left out: it takes its imbalance once.
+  // The last cell is repeated until packs are full. Where few cells are left one by one is faster.
   int cells = count;
   while (cells > 1 && slot[cells - 1] == slot[cells - 2]) --cells;
-  for (int n = 0; n < cells; n += static_cast<int>(P::size())) {
+  constexpr int width = static_cast<int>(P::size()), few = width / 3;
+  int n = 0;
+  for (; cells - n > few; n += width) {
     P imbalance(T(0));
     const float* partner = in.group_partner + group.coefficient + n;
     for (int k = 0; k < links; ++k) {
@@ -152,6 +154,21 @@ void reflect_group(const WallInput<T>& in, const WallGroup& group) {
       scatter(out + change, link[k].back, link[k].back_at + n);
     }
     scatter(gather(in.f, slot + n) + imbalance, in.f, slot + n);  // the population at rest takes the imbalance
+  }
+  for (; n < cells; ++n) {
+    T imbalance = 0;
+    for (int k = 0; k < links; ++k) {
+      const std::size_t at = group.coefficient + n + static_cast<std::size_t>(k) * count;
+      const T out = link[k].out[link[k].out_at[n]];
+      T change = static_cast<T>(in.group_partner[at]) * (link[k].partner[link[k].partner_at[n]] - out);
+      imbalance -= change;
+      if (group.moving) {
+        imbalance -= static_cast<T>(in.wall_speed) * static_cast<T>(in.group_returned[at]);
+        change += static_cast<T>(in.wall_speed) * static_cast<T>(in.group_moving[at]);
+      }
+      link[k].back[link[k].back_at[n]] = out + change;
+    }
+    in.f[slot[n]] += imbalance;
   }
 }
 

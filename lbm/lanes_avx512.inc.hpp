@@ -31,12 +31,10 @@ template <class T>
 
 /// How many of the lanes are below a limit.
 [[gnu::always_inline]] inline int count_below(const Pack<float>& v, float limit, __mmask16 lanes) {
-  return __builtin_popcount(
-      _mm512_mask_cmp_ps_mask(lanes, static_cast<__m512>(v), _mm512_set1_ps(limit), _CMP_LT_OQ));
+  return __builtin_popcount(_mm512_mask_cmp_ps_mask(lanes, static_cast<__m512>(v), _mm512_set1_ps(limit), _CMP_LT_OQ));
 }
 [[gnu::always_inline]] inline int count_below(const Pack<double>& v, double limit, __mmask8 lanes) {
-  return __builtin_popcount(
-      _mm512_mask_cmp_pd_mask(lanes, static_cast<__m512d>(v), _mm512_set1_pd(limit), _CMP_LT_OQ));
+  return __builtin_popcount(_mm512_mask_cmp_pd_mask(lanes, static_cast<__m512d>(v), _mm512_set1_pd(limit), _CMP_LT_OQ));
 }
 /// Whether all of the lanes are below a limit (what is not a number is not).
 [[gnu::always_inline]] inline bool all_below(const Pack<float>& v, float limit, __mmask16 lanes) {

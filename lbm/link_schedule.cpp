@@ -62,15 +62,36 @@ struct Item {
   int cell;  // within the wall run
 };
 
+/// Runs are done in the order of what they need.
 bool before(const Item& a, const Item& b) {
-  const auto key = [](const Item& i) {
-    return std::tuple(i.needs.last, -i.needs.from, i.wall->directions, i.wall->far, i.wall->moving);
-  };
-  return key(a) < key(b);
+  return std::pair(a.needs.last, -a.needs.from) < std::pair(b.needs.last, -b.needs.from);
 }
 
-/// Whether two cells can be of one group.
-bool alike(const Item& a, const Item& b) { return !before(a, b) && !before(b, a); }
+/// Cells of equal kind are one group. Those that need no chunk but their own, and those that need the periodic faces,
+/// are apart from the others, of which a group waits for the earliest that any of them needs: few groups, so few packs
+/// that are not full.
+auto kind_of(const Item& i) {
+  const int reach = i.needs.from == i.needs.last ? 0 : i.needs.from >= 0 ? 1 : 2;
+  return std::tuple(i.needs.last, reach, i.wall->directions, i.wall->far, i.wall->moving);
+}
+struct Group {
+  std::size_t first, end;  // of the cells in order of kind
+  Needs needs;
+};
+std::vector<Group> groups_of(const std::vector<Item>& cells) {
+  std::vector<Group> groups;
+  for (std::size_t n = 0; n < cells.size(); ++n) {
+    if (groups.empty() || kind_of(cells[groups.back().first]) != kind_of(cells[n]))
+      groups.push_back({n, n, cells[n].needs});
+    Group& group = groups.back();
+    group.end = n + 1;
+    group.needs.from = std::min(group.needs.from, cells[n].needs.from);
+  }
+  std::stable_sort(groups.begin(), groups.end(), [](const Group& a, const Group& b) {
+    return std::pair(a.needs.last, -a.needs.from) < std::pair(b.needs.last, -b.needs.from);
+  });
+  return groups;
+}
 
 /// First of each chunk in a list ordered by chunk.
 template <class List, class ChunkOf>
@@ -83,11 +104,11 @@ std::vector<std::size_t> first_of_chunks(const List& list, std::size_t chunks, c
   return first;
 }
 
-void add_group(const Rows& rows, const Links& links, const std::vector<Item>& cells, std::size_t first, std::size_t end,
+void add_group(const Rows& rows, const Links& links, const std::vector<Item>& cells, const Group& group,
                LinkSchedule& schedule) {
-  const WallRun& like = *cells[first].wall;
-  std::vector<Item> members(cells.begin() + static_cast<std::ptrdiff_t>(first),
-                            cells.begin() + static_cast<std::ptrdiff_t>(end));
+  const WallRun& like = *cells[group.first].wall;
+  std::vector<Item> members(cells.begin() + static_cast<std::ptrdiff_t>(group.first),
+                            cells.begin() + static_cast<std::ptrdiff_t>(group.end));
   while (members.size() % group_unit != 0) members.push_back(members.back());
   schedule.groups.push_back({static_cast<std::int32_t>(members.size()), like.directions, like.far, like.moving,
                              schedule.places.size(), schedule.partner.size()});
@@ -137,23 +158,20 @@ LinkSchedule schedule_links(const Rows& rows, const Links& links) {
     for (int n = 0; n < wall.count; ++n) cells.push_back({needs_of(rows, chunk, wall, n, n + 1), &wall, n});
   }
   std::stable_sort(runs.begin(), runs.end(), before);
-  std::stable_sort(cells.begin(), cells.end(), before);
+  std::stable_sort(cells.begin(), cells.end(), [](const Item& a, const Item& b) { return kind_of(a) < kind_of(b); });
 
   LinkSchedule schedule;
   for (const Item& item : runs) {
     schedule.runs.push_back(*item.wall);
     schedule.waiting_runs.needs_from.push_back(item.needs.from);
   }
-  const auto last_of = [](const Item& item) { return item.needs.last; };
-  schedule.waiting_runs.first = first_of_chunks(runs, chunks, last_of);
-  std::vector<Item> group_first;
-  for (std::size_t first = 0, end = 0; first < cells.size(); first = end) {
-    while (end < cells.size() && alike(cells[first], cells[end])) ++end;
-    add_group(rows, links, cells, first, end, schedule);
-    schedule.waiting_groups.needs_from.push_back(cells[first].needs.from);
-    group_first.push_back(cells[first]);
+  schedule.waiting_runs.first = first_of_chunks(runs, chunks, [](const Item& item) { return item.needs.last; });
+  const std::vector<Group> groups = groups_of(cells);
+  for (const Group& group : groups) {
+    add_group(rows, links, cells, group, schedule);
+    schedule.waiting_groups.needs_from.push_back(group.needs.from);
   }
-  schedule.waiting_groups.first = first_of_chunks(group_first, chunks, last_of);
+  schedule.waiting_groups.first = first_of_chunks(groups, chunks, [](const Group& group) { return group.needs.last; });
   const auto chunk_of_link = [&](const OpeningLink& link) { return chunk[link.run]; };
   schedule.inlets = first_of_chunks(links.inlets, chunks, chunk_of_link);
   schedule.outlets = first_of_chunks(links.outlets, chunks, chunk_of_link);

@@ -1,8 +1,8 @@
 #pragma once
 // Chunks of work in parts, one a thread, each worked through in order, so that every step a thread meets the memory it
 // met in the last. Who is done with his part helps from the end of the others': a core that is slower or busy with
-// somebody else's work, as half of them are on a shared machine, holds up one chunk and not the step. Nothing may depend
-// on who does a chunk.
+// somebody else's work, as half of them are on a shared machine, holds up one chunk and not the step. Nothing may
+// depend on who does a chunk.
 
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
@@ -46,8 +46,8 @@ class Part {
   alignas(64) std::atomic<std::uint64_t> left_{0};
 };
 
-/// body(chunk, begin) for each of the chunks [0, count). All chunks from `begin` to this one were done before by the same
-/// thread, in order.
+/// body(chunk, begin) for each of the chunks [0, count). All chunks from `begin` to this one were done before by the
+/// same thread, in order.
 template <class Body>
 void for_each_in_parts(int count, const Body& body) {
   const int parts = std::min(count, oneapi::tbb::this_task_arena::max_concurrency());

@@ -61,8 +61,8 @@ Rows::Rows(const geometry::Voxels& voxels, std::array<bool, 3> periodic)
     auto first_stored = stored.begin();
     for (const geometry::FluidRun& place : room) {
       for (; first_stored != stored.end() && first_stored->begin < place.end; ++first_stored)
-        stretches_.push_back({first_stored->begin, first_stored->end - first_stored->begin,
-                              next + (first_stored->begin - place.begin)});
+        stretches_.push_back(
+            {first_stored->begin, first_stored->end - first_stored->begin, next + (first_stored->begin - place.begin)});
       next += place.end - place.begin;
     }
   });

@@ -9,8 +9,8 @@
 // lands in a ghost slot, where the links (walls, inlet, outlet, periodic faces) pick it up.
 //
 // Rows follow each other without a gap. In a straight duct all rows are equally long, so all of its runs have the same
-// shifts: together they are one span of slots, of which a kernel can take whole packs, ghosts between the rows included,
-// with a mask of the lanes that are cells (docs/decisions/0024-packs-across-rows.md).
+// shifts: together they are one span of slots, of which a kernel can take whole packs, ghosts between the rows
+// included, with a mask of the lanes that are cells (docs/decisions/0024-packs-across-rows.md).
 
 #include <array>
 #include <cstddef>
@@ -59,8 +59,8 @@ class Rows {
   std::array<bool, 3> periodic() const { return periodic_; }
 
  private:
-  /// Rows in the order in which they lie in memory: along the shorter one of y and z first, so that neighbours of a cell in
-  /// a flat device are not far.
+  /// Rows in the order in which they lie in memory: along the shorter one of y and z first, so that neighbours of a
+  /// cell in a flat device are not far.
   std::size_t row(int j, int k) const;
   template <class Body>
   void for_each_row(int margin, const Body& body) const;  // body(j, k); margin 1: the rows of ghosts around too

@@ -275,8 +275,8 @@ void random_directions(std::mt19937& random, double (&u)[3], double (&p)[6]) {
   for (double& v : p) v /= size;
 }
 
-// The kernel looks at no population of a cell near rest: it must be that none can be negative there (the limiter's floor
-// is w_i/10). States on the surface of that region, a third of them with the flow along a diagonal and its stress
+// The kernel looks at no population of a cell near rest: it must be that none can be negative there (the limiter's
+// floor is w_i/10). States on the surface of that region, a third of them with the flow along a diagonal and its stress
 // against it, which is the worst there is.
 TEST(Rr3, HasNoPopulationBelowATenthOfItsWeightNearRest) {
   std::mt19937 random(7);

@@ -91,8 +91,8 @@ TEST(Rows, OfAStraightDuctAreOneSpan) {
   for (std::size_t r = 1; r < runs.size(); ++r) {
     EXPECT_EQ(runs[r].span, runs[0].span);
     EXPECT_EQ(runs[r].shift, runs[0].shift);
-    // A ghost at each end and no room between them; two rows of ghosts between planes.
-    EXPECT_EQ(runs[r].first - runs[r - 1].first, runs[r].z == runs[r - 1].z ? 24 : 3 * 24);
+    // A ghost at each end and no room between them, along z first; two rows of ghosts between planes.
+    EXPECT_EQ(runs[r].first - runs[r - 1].first, runs[r].y == runs[r - 1].y ? 24 : 3 * 24);
   }
   for (std::size_t s = 0; s < rows.slots(); ++s)
     EXPECT_EQ((rows.active_lanes()[s / 16] >> s % 16 & 1) != 0, rows.is_active(static_cast<std::ptrdiff_t>(s))) << s;
