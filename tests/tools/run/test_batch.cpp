@@ -105,7 +105,7 @@ TEST_F(BatchStudy, GivenValuesOfTheBaseAreNotThoseOfAnotherDrug) {
 // Air, carriers and contacts do not know of the fines, so all but what is in the air must be the same to the last bit.
 // In the air the shared run steps as the most diffusive scalar needs: with equal diffusion the same bits too.
 TEST_F(BatchStudy, ASharedRunGivesWhatEachCaseGivesAlone) {
-  file("case.toml", coarse_dose());
+  file("case.toml", small_dose);
   const std::string cases =
       "[[case]]\nname = \"a\"\n[[case]]\nname = \"b\"\nset = { \"fines.scalar[0].scheme\" = \"minmod\" }\n";
   file("study.toml", "base = \"case.toml\"\nshare = [\"scalars\"]\n" + cases);
@@ -134,7 +134,7 @@ std::string micromodel_set(double limit) {
 // to the rounding of other orders of summation (1e-9 of the fines; sums of some 1e6 terms). Where airborne fines ended
 // is taken from the run.
 TEST_F(BatchStudy, ReplayedMicromodelsLeaveOnTheCarriersWhatARunOfTheirOwnLeaves) {
-  file("case.toml", coarse_dose());
+  file("case.toml", small_dose);
   file("weak.toml", micromodel_set(0.05));
   file("strong.toml", micromodel_set(0.2));
   const std::string first = "[[case]]\nname = \"a\"\nset = { \"fines.micromodels\" = \"weak.toml\" }\n",
@@ -157,7 +157,7 @@ TEST_F(BatchStudy, ReplayedMicromodelsLeaveOnTheCarriersWhatARunOfTheirOwnLeaves
 // Carriers that do not act on the air feel the same air alone and beside others. While no dose rests as a whole, both
 // ways take the same intervals, so that every number is the same to the last bit.
 TEST_F(BatchStudy, ASharedFlowGivesWhatEachOneWayCaseGivesAlone) {
-  file("case.toml", coarse_dose());
+  file("case.toml", small_dose);
   const std::string cases =
       "[[case]]\nname = \"a\"\nset = { \"carriers.two_way\" = false, \"stop.time\" = \"8 ms\" }\n[[case]]\nname = "
       "\"b\"\n"

@@ -138,7 +138,7 @@ TEST_F(RunHealth, ACarrierFasterThanAnyAirIsFoundWithin100Steps) {
 }
 
 // Its slip is endless: it has no place in the history of slips, and no law takes fines from it.
-TEST_F(RunHealth, WithFinesToo) {
+TEST_F(RunHealth, ACarrierWithFinesFasterThanAnyAirIsFoundWithin100Steps) {
   expect_within_100_steps(
       complaints(1e-3, 1.0, "1 MPa", " moves at ",
                  "--no-report --set 'carriers.gravity=[0,0,-1e300]' --set carriers.fines_each=2000 "
