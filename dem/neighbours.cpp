@@ -33,10 +33,7 @@ class Cells {
   }
 
   using Key = Eigen::Matrix<std::int64_t, 3, 1>;
-  Key cell(const Eigen::Vector3d& x) const {
-    return {static_cast<std::int64_t>(std::floor(x[0] / edge_)), static_cast<std::int64_t>(std::floor(x[1] / edge_)),
-            static_cast<std::int64_t>(std::floor(x[2] / edge_))};
-  }
+  Key cell(const Eigen::Vector3d& x) const { return {index(x[0]), index(x[1]), index(x[2])}; }
   /// Calls use(j) for each carrier j in the cell, in ascending order.
   template <class Use>
   void visit(const Key& key, Use use) const {
@@ -46,6 +43,12 @@ class Cells {
   }
 
  private:
+  /// What is further than an index reaches, or is no number, is in the last cell.
+  std::int64_t index(double x) const {
+    constexpr double last = 0x1p62;
+    const double cells = std::floor(x / edge_);
+    return static_cast<std::int64_t>(cells > -last ? std::min(cells, last) : -last);
+  }
   std::size_t bucket(const Key& key) const {
     const auto u = [&](int d) { return static_cast<std::uint64_t>(key[d]); };
     std::uint64_t h = u(0) * 0x9E3779B97F4A7C15ull ^ u(1) * 0xC2B2AE3D27D4EB4Full ^ u(2) * 0x165667B19E3779F9ull;
@@ -68,7 +71,9 @@ class Levels {
  public:
   Levels(const Carriers& carriers, const std::vector<double>& budget, double largest, double edge) : edge_(edge) {
     for (std::size_t i = 0; i < carriers.size(); ++i) {
-      const std::size_t level = level_of(reach_of(carriers, budget, largest, i));
+      const double reach = reach_of(carriers, budget, largest, i);
+      if (!std::isfinite(reach)) continue;
+      const std::size_t level = level_of(reach);
       if (level >= cells_.size()) cells_.resize(level + 1);
       if (!cells_[level]) cells_[level].emplace(carriers.position, std::ldexp(edge, static_cast<int>(level)));
     }
@@ -94,7 +99,8 @@ void build(const Carriers& carriers, Neighbours& neighbours) {
   if (n == 0) return;
   const double largest = *std::max_element(carriers.radius.begin(), carriers.radius.end());
   double mean_budget = 0.0;
-  for (const double b : neighbours.budget) mean_budget += b / static_cast<double>(n);
+  for (const double b : neighbours.budget)
+    if (std::isfinite(b)) mean_budget += b / static_cast<double>(n);
   const Levels levels(carriers, neighbours.budget, largest, 2.0 * largest + 2.0 * mean_budget);
 
   // Each pair is found by the partner with the larger budget (the larger place if equal), whose search reaches far
@@ -104,6 +110,7 @@ void build(const Carriers& carriers, Neighbours& neighbours) {
     auto& pairs = found[part];
     for (std::size_t i = first; i < last; ++i) {
       const double budget = neighbours.budget[i], reach = reach_of(carriers, neighbours.budget, largest, i);
+      if (!std::isfinite(reach)) continue;
       const Cells& cells = levels.of(reach);
       const Eigen::Vector3d x = carriers.position[i], arm = Eigen::Vector3d::Constant(reach);
       const auto low = cells.cell(x - arm), high = cells.cell(x + arm);

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <random>
 
 #include "tests/dem/scene.hpp"
@@ -41,6 +43,25 @@ TEST(Neighbours, are_the_pairs_within_both_budgets_also_where_one_carrier_is_far
     pairs += near.size();
   }
   EXPECT_GT(pairs, 2 * 999u);  // the fast one has all others
+}
+
+TEST(Neighbours, of_a_carrier_that_is_no_number_are_none_and_the_others_keep_theirs) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN(), endless = std::numeric_limits<double>::infinity();
+  const Eigen::Vector3d far = Eigen::Vector3d::Constant(1e300);
+  for (const double budget : {0.01, 1e300, endless, none})
+    for (const double place : {0.0, 1e300, endless, none}) {
+      Carriers carriers;
+      carriers.position = {{0.0, 0.0, 0.0}, {2.01, 0.0, 0.0}, {place, 50.0, 0.0}, far};
+      carriers.id = {0, 1, 2, 3};
+      carriers.radius = {1.0, 1.0, 1.0, 1.0};
+      Neighbours neighbours;
+      neighbours.budget = {0.01, 0.01, budget, 0.01};
+      build(carriers, neighbours);
+      SCOPED_TRACE(::testing::Message() << "budget " << budget << ", place " << place);
+      if (budget == 1e300 && std::isfinite(place)) continue;  // it may meet all of them
+      EXPECT_EQ(neighbours.list, (std::vector<std::int32_t>{1, 0}));
+      EXPECT_EQ(neighbours.begin, (std::vector<std::int32_t>{0, 1, 2, 2, 2}));
+    }
 }
 
 }  // namespace
