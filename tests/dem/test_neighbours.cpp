@@ -26,7 +26,8 @@ TEST(Neighbours, are_the_pairs_within_both_budgets_also_where_one_carrier_is_far
     carriers.position.emplace_back(place(random), place(random), place(random));
     carriers.id.push_back(i);
     carriers.radius.push_back(1.0);
-    neighbours.budget.push_back(i % 100 == 7 ? 2.0 * (i / 100 + 1) : 0.01);
+    const int hundred = i / 100 + 1;
+    neighbours.budget.push_back(i % 100 == 7 ? 2.0 * hundred : 0.01);
   }
   neighbours.budget[507] = 4000.0;
   build(carriers, neighbours);
