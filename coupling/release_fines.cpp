@@ -128,14 +128,17 @@ void FinesRelease::by_contacts(std::span<const dem::ContactBegun> begun, const s
 void FinesRelease::by_drag(const Stencils& stencils, std::span<const double> slip, double duration,
                            const dem::Carriers& carriers, const micromodels::FinesModels& models, Fines& fines,
                            lbm::ScalarFields& fields) {
+  // What has no finite speed is left to the health check: it has no class, and no law knows it.
+  const auto flies = [&](const Stencil& at) { return at.count > 0 && std::isfinite(slip[at.carrier]); };
   for (const Stencil& stencil : stencils.stencils())
-    if (stencil.count > 0) fines.slip.add(carriers.id[stencil.carrier], slip[stencil.carrier], duration);
+    if (flies(stencil)) fines.slip.add(carriers.id[stencil.carrier], slip[stencil.carrier], duration);
   if (!models.drag_detach) return;
   std::vector<double>& amount = amount_[static_cast<int>(Mechanism::drag)];
   amount.resize(carriers.size());
   lbm::CompensatedSum& to_air = fines.to_air[static_cast<int>(Mechanism::drag)];
   for (const Stencil& stencil : stencils.stencils()) {
-    if (stencil.count == 0) continue;
+    amount[stencil.carrier] = 0.0;
+    if (!flies(stencil)) continue;
     const auto id = carriers.id[stencil.carrier];
     const micromodels::Taken asked =
         micromodels::drag(models, slip[stencil.carrier], duration, fines.initial[id], fines.left[id]);

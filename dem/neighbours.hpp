@@ -21,7 +21,8 @@ struct Neighbours {
 };
 
 /// Builds the list anew with neighbours.budget, which the caller has set (one entry a carrier). Cost ~ number of
-/// carriers, for budgets up to about the radius.
+/// carriers, for budgets up to about the radius. A carrier whose place or budget is no finite number has none (the
+/// health check will end the run), the others keep theirs.
 void build(const Carriers& carriers, Neighbours& neighbours);
 
 }  // namespace puffin::dem

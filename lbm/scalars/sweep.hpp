@@ -12,11 +12,16 @@
 // No new extremum: the values at the faces lie between the cell and its neighbour, for the slope is at most twice the
 // smaller difference. What stays behind, per air staying behind, is Y + b slope with |b| <= 1/2 max(a)/theta: again
 // between the cell and its neighbours while the outflow through both faces is at most theta. The new Y is the
-// air-weighted mean of what stayed and what came. With diffusion the weight of Y itself is at least theta (1 - nu)^2,
-// nu = outflow / theta, so that the sum stays a mean as long as gamma times the number of exchanging faces is below
-// that. Y' = Y - drift slope is the concentration half a step later, drift = (net outflow to the high side)/(2 theta):
-// it makes the diffusion second order in time. The neighbour upstream, of which Y' takes up to the part 2 drift, still
-// counts with a positive weight while drift <= 1/6 (two times 1/3 lost, 1 - 1/3 received), so it is clipped there.
+// air-weighted mean of what stayed and what came.
+//
+// With diffusion Y' = Y - drift slope is the concentration after the air has moved on, drift = (net outflow to the high
+// side)/theta, at most 1/2, so that it too lies between the cell and its neighbour: advection and diffusion of one
+// sweep are of second order in time together (with half the drift a cloud was 0.06 cells ahead whatever the size of the
+// cells). What stays is (1 - nu) theta (Y - drift/2 slope), nu = outflow / theta, of which diffusion takes its
+// exchange, gamma times the exchanging faces, times Y': the neighbour upstream and Y itself count with positive weights
+// while that exchange is at most (1 - nu) theta/2. It is at most (1 - nu)^2 theta (sub_step.cpp); a cell where it is
+// more than the half takes half the drift.
+//
 // Scalars that drift through the air leave with a = air + drift; the air does not move with them. So a cell between
 // walls in which they gather gets a larger Y, not more air: in equilibrium Y falls as exp(-w z/D). Without new extrema
 // in the part that follows the air; where the drift converges Y must grow.

@@ -31,7 +31,7 @@ using RealsOf = Lanes<Real, lanes_of<Real>>;  // one number a cell
 constexpr int lanes = lanes_of<double>;
 using Reals = RealsOf<double>;
 
-constexpr double largest_drift = 1.0 / 6.0;  // see sweep.hpp
+constexpr double largest_drift = 0.5;  // see sweep.hpp
 
 /// Of the faces of a pack: 1 where air passes (code 1 inner, 2 opening), and 1 where there is a neighbour behind (1).
 template <class Real>
@@ -93,8 +93,9 @@ void outgoing(const SweepRun& run, const SweepScalar<Real>* scalars, int count) 
     const V out_high = positive_part(steps * mass_high * at_high.passes);
     const V out_low = positive_part(-steps * mass_low * at_low.passes);
     const V reach_high = half - half * out_high * per_air, reach_low = half - half * out_low * per_air;
-    // Half the net outflow to the high side per theta, clipped.
-    const V net = reach_low - reach_high, size = detail::smaller(detail::magnitude(net), most_drift);
+    // The net outflow to the high side per theta, clipped; half of what stays.
+    const V half_left = half * (load<Real>(run.air + n) - (out_high + out_low));
+    const V net = (out_high - out_low) * per_air, size = detail::smaller(detail::magnitude(net), most_drift);
     const V drift = net < V{} ? -size : size;
     // Exchange through the faces whatever the scalar.
     V eddy_high{}, eddy_low{};
@@ -107,12 +108,13 @@ void outgoing(const SweepRun& run, const SweepScalar<Real>* scalars, int count) 
       const Real* at = s.concentration + n;
       const V exchange = detail::spread<V>(s.exchange);
       const V high = exchange * at_high.links + eddy_high, low = exchange * at_low.links + eddy_low;
+      const V shift = high + low > half_left ? half * drift : drift;
       const V y = load<Real>(at);
       const V rise = slope(s.scheme, (y - load<Real>(at + run.low)) * at_low.links,
                            (load<Real>(at + run.high) - y) * at_high.links);
       // Not negative but for rounding.
-      const V leaves_high = (out_high + high) * y + (out_high * reach_high - high * drift) * rise;
-      const V leaves_low = (out_low + low) * y - (out_low * reach_low + low * drift) * rise;
+      const V leaves_high = (out_high + high) * y + (out_high * reach_high - high * shift) * rise;
+      const V leaves_low = (out_low + low) * y - (out_low * reach_low + low * shift) * rise;
       store_first<Real, lanes_of<Real>>(positive_part(leaves_high), cells, s.out_high + n);
       store_first<Real, lanes_of<Real>>(positive_part(leaves_low), cells, s.out_low + n);
     }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <random>
 
@@ -205,6 +206,22 @@ TEST(FinesRelease, DragTakesItsRateTimesTheTime) {
   d.release.by_drag(stencils, std::vector<double>(200, 8.0), 1e-3, d.carriers, d.models, d.fines, d.fields);
   EXPECT_NEAR(d.fines.left[11], 20000.0 - 1.28, 4e-12);
   EXPECT_NEAR(lbm::total(d.fields, scalar_index(1, Mechanism::drag)), 256.0, 1e-9);
+}
+
+// Its place in the history of slips lay far outside the table, and a law refuses what is no number: a run with such a
+// carrier is ended by its health check, which names it.
+TEST(FinesRelease, WhatHasNoFiniteSpeedLosesNothingAndTheOthersDo) {
+  Device d;
+  Stencils stencils;
+  stencils.build(d.cells, d.carriers.position, d.carriers.radius, all(d.carriers.size()));
+  std::vector<double> slip(200, 8.0);
+  slip[0] = std::numeric_limits<double>::infinity();
+  slip[1] = std::numeric_limits<double>::quiet_NaN();
+  d.release.by_drag(stencils, slip, 1e-3, d.carriers, d.models, d.fines, d.fields);
+  EXPECT_EQ(d.fines.left[0], 20000.0);
+  EXPECT_EQ(d.fines.left[1], 20000.0);
+  EXPECT_NEAR(d.fines.left[2], 20000.0 - 1.28, 4e-12);
+  EXPECT_NEAR(lbm::total(d.fields, scalar_index(1, Mechanism::drag)), 198 * 1.28, 1e-9);
 }
 
 TEST(FinesRelease, IsTheSameForOneAndTwoThreads) {

@@ -23,7 +23,8 @@ Scene cluster(const ContactModel& contact, const Adhesion& adhesion, int seed, d
   std::uniform_real_distribution<double> in(-1.0, 1.0);
   const auto vector = [&] { return Vector3d(in(generator), in(generator), in(generator)); };
   for (int n = 0; n < 24; ++n) {
-    const Vector3d site(n % 4 - 1.5, n / 4 % 3 - 1.0, n / 12 - 0.5);
+    const int column = n % 4, row = n / 4 % 3, layer = n / 12;
+    const Vector3d site(column - 1.5, row - 1.0, layer - 0.5);
     Carrier c =
         lactose(n, 90e-6 * site + 4e-6 * vector(), speed * (vector() - site), (30.0 + 5.0 * in(generator)) * 1e-6);
     c.spin = 1e5 * speed * vector();

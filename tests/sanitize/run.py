@@ -24,9 +24,9 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parent
 HEADER = ["program", "claims", "reports", "result", "left_out", "cpu_s"]
 LONG = {"test_restart_l_base", "test_restart_walls", "test_determinism"}
-# Claims that take too long or need what a sanitizer forbids, with the reason behind each. None is known yet: the preset was not run
-# to its end.
+# Claims that take too long or need what a sanitizer forbids; behind each what runs its lines instead.
 LEFT_OUT: dict[str, list[str]] = {
+    "test_checkpoint": ["Checkpoint.AlteredBytesAreRefusedOrHarmless"],  # stopped after 527 s with the claims before it; fuzz_checkpoint alters bytes the same way
 }
 
 

@@ -1,6 +1,7 @@
 #include "tools/puffin/available_memory.hpp"
 
 #include <sys/resource.h>
+#include <sys/sysinfo.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -26,12 +27,19 @@ double number_of(const fs::path& file, const std::string& word) {
   return unlimited;
 }
 
-double of_the_machine() { return 1024.0 * number_of("/proc/meminfo", "MemAvailable:"); }
+/// Without /proc what no one uses, caches not counted: less than what is available.
+double of_the_machine() {
+  const double available = 1024.0 * number_of("/proc/meminfo", "MemAvailable:");
+  if (struct sysinfo info{}; available == unlimited && sysinfo(&info) == 0)
+    return static_cast<double>(info.freeram) * info.mem_unit;
+  return available;
+}
 
 double of_the_process() {
   rlimit limit{};
   if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return unlimited;
-  return static_cast<double>(limit.rlim_cur) - 1024.0 * number_of("/proc/self/status", "VmSize:");
+  const double used = 1024.0 * number_of("/proc/self/status", "VmSize:");
+  return static_cast<double>(limit.rlim_cur) - (used == unlimited ? 0.0 : used);
 }
 
 /// What a control group leaves; caches of files that are not in use give way. A group without limit says "max", or a

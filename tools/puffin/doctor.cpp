@@ -1,6 +1,7 @@
 // puffin doctor: is this machine fit, and do the libraries do what is needed of them?
 
 #include <oneapi/tbb/info.h>
+#include <sys/utsname.h>
 #include <unistd.h>
 #include <CLI/CLI.hpp>
 
@@ -32,6 +33,15 @@ std::string processor() {
   for (std::string line; std::getline(in, line);)
     if (line.starts_with("model name")) return line.substr(std::min(line.size(), line.find(':') + 2));
   return "unknown";
+}
+
+std::string system(bool proc) {
+  if (!proc)
+    throw std::runtime_error(
+        "/proc is not mounted: the memory that caches would give back is not counted, the program does not find the " +
+        std::string("cases that came with it, and studies do not run: mount -t proc proc /proc"));
+  utsname of{};
+  return uname(&of) == 0 ? of.sysname + std::string(" ") + of.release : "unknown";
 }
 
 std::string instruction_set() {
@@ -163,6 +173,8 @@ int doctor() {
     }
     return scratch->path().parent_path().string() + " can be written";
   });
+  const bool proc = std::filesystem::exists("/proc/self/exe");
+  tell("system", true, v, [&] { return system(proc); });
   tell("processor", false, v, processor);
   tell("kernel", false, v, instruction_set);
   tell("threads", false, v, threads);
@@ -180,7 +192,7 @@ int doctor() {
   tell("vtk", false, v, [&] { return test_vtk(scratch->path()), "writes and reads"; });
   tell("hdf5", false, v, [&] { return test_hdf5(scratch->path()), "writes and reads"; });
   tell("pictures", false, v, [&] { return test_picture(scratch->path()), "painted without a display"; });
-  tell("micromodels", false, v, [] {
+  tell("micromodels", !proc, v, [] {
     for (const std::string& folder : cases::micromodel_directories())
       if (std::filesystem::is_directory(folder)) return folder;
     throw std::runtime_error("none of the folders of shipped micro-models is there: install Puffin anew, or name " +

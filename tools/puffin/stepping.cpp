@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <csignal>
+#include <stdexcept>
 
 #include "tools/output/report/live_page.hpp"
 #include "tools/puffin/console.hpp"
@@ -87,7 +88,12 @@ std::int64_t Stepping::steps() const { return s_.state.air ? s_.state.air->steps
 double Stepping::wall_clock() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 
 void Stepping::step() {
-  coupling::advance(s_.models, std::min(recorder_->next(), s_.description.stop.time), s_.state);
+  try {
+    coupling::advance(s_.models, std::min(recorder_->next(), s_.description.stop.time), s_.state);
+  } catch (const std::logic_error&) {  // a law that was asked about what is no number, before the next look
+    health_.check(s_.models, s_.state);
+    throw;
+  }
   health_.check_impacts(s_.models, s_.state);
   const auto writing = Clock::now();
   recorder_->take_events(s_);

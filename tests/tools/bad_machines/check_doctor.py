@@ -61,6 +61,9 @@ def machines(program: str, folder: str) -> list[tuple[str, tuple[int, str], int,
              doctor(program, [*MOUNT, f'mount -t tmpfs -o size=1m none {folder} && exec "$0" "$@"'],
                     environment={"TMPDIR": folder}), 6, r"^scratch +FAILED: .* free in .*: set TMPDIR"),
         ]
+        no_proc = doctor(program, [*MOUNT, 'mount -t tmpfs none /proc && exec "$0" "$@"'])
+        rows += [("no /proc", no_proc, 6, r"^system +FAILED: /proc is not mounted: .*: mount -t proc proc /proc$"),
+                 ("memory without /proc", no_proc, 6, r"^memory +\d[\d.]* .B available$")]
     else:
         print("left out: disks (no mount name space here)")
     return rows

@@ -137,4 +137,14 @@ TEST_F(RunHealth, ACarrierFasterThanAnyAirIsFoundWithin100Steps) {
       complaints(1e-3, 1.0, "1 MPa", " moves at ", "--no-report --set 'carriers.gravity=[0,0,-1e300]'"), 0.0, 0.0);
 }
 
+// Its slip is endless: it has no place in the history of slips, and no law takes fines from it.
+TEST_F(RunHealth, ACarrierWithFinesFasterThanAnyAirIsFoundWithin100Steps) {
+  expect_within_100_steps(
+      complaints(1e-3, 1.0, "1 MPa", " moves at ",
+                 "--no-report --set 'carriers.gravity=[0,0,-1e300]' --set carriers.fines_each=2000 "
+                 "--set carriers.fine_mass_ratio=2e-5 --set 'fines.micromodels=\"lactose-3.6e-3.toml\"' "
+                 "--set 'fines.scalar=[{name=\"drug\",diffusion=\"1e-6 kg/(m s)\"}]'"),
+      0.0, 0.0);
+}
+
 }  // namespace
