@@ -17,11 +17,12 @@ void keep_fines_in_one_place(int sets, State& s);
 /// Takes fines off the carriers by the contacts and the slip of an interval of `steps` air steps, `interval` [s].
 void move_fines(const Models& models, std::int64_t steps, double interval, State& s);
 
-/// How many air steps an update of the fines' transport covers, if the flow allows `allowed` of them in one sub-step
-/// (>= 1 assumed, 64 at most): a multiple of the exchange interval (>= 1) if one sub-step holds it; else up to three
-/// intervals, those with the fewest sub-steps an air step. Longer is not taken: what is released in an update is
-/// carried over all of it, and the fluxes are those of its end.
-double steps_per_update(double allowed, std::int64_t exchange);
+/// How many air steps an update of the fines' transport covers, if the flow allows `allowed` of them (>= 1 assumed, 64
+/// at most): as many as one sub-step holds, or two or three exchange intervals (>= 1 steps each) where that costs less
+/// an air step. Cost in sweeps: three a sub-step or five a pair, half a sweep to prepare each, and 2.5 an update for
+/// the fluxes and what is found from them (docs/decisions/0025-mirrored-pairs.md). Longer is not taken: what is
+/// released in an update is carried over all of it, and the fluxes are those of its end.
+double steps_per_update(const lbm::StepsAllowed& allowed, std::int64_t exchange);
 
 /// Air steps over which diffusion stays second order in time: half a cell's width squared, n D <= 1/2 in lattice units
 /// (lbm/scalars/diffuse_lines.hpp weighs old and new equally up to there), and never less than one step. A cloud

@@ -142,11 +142,11 @@ void prepare(const Update<Real>& u, const SweepKernel& kernel, double elapsed) {
 
 /// One sub-step of some scalars. Each such group carries the air anew.
 template <class Real>
-void advance_group(const Update<Real>& u, const SweepKernel& kernel, double elapsed, const SubStep& p) {
+void advance_group(const Update<Real>& u, const SweepKernel& kernel, double elapsed, const SubStep& p,
+                   const std::vector<Stroke>& sweeps) {
   prepare(u, kernel, elapsed);
   const bool reversed = u.fields.reversed, drifts = !u.fluxes.drift[0].empty() && !p.any_implicit;
   std::vector<double> exchange(u.fields.scalars());
-  for (const int k : u.moving) exchange[k] = p.implicit[k] ? 0.0 : p.steps * u.options.scalar[k].diffusivity;
   const auto diffuse = [&](bool before) {
     for (int n = 0; n < 3; ++n)
       for (const int k : u.moving)
@@ -156,13 +156,17 @@ void advance_group(const Update<Real>& u, const SweepKernel& kernel, double elap
   // Mirrored from one sub-step to the next, which makes two of them second order in time.
   diffuse(true);
   if (p.any_implicit) u.for_each_run([&](const Run& run, auto& views) { find_concentrations(u, kernel, run, views); });
-  for (int n = 0; n < 3; ++n) sweep(u, kernel.of<Real>(), reversed ? 2 - n : n, p.steps, exchange, drifts, n == 2);
+  for (std::size_t n = 0; n < sweeps.size(); ++n) {
+    const auto [d, steps] = sweeps[n];
+    for (const int k : u.moving) exchange[k] = p.implicit[k] ? 0.0 : steps * u.options.scalar[k].diffusivity;
+    sweep(u, kernel.of<Real>(), d, steps, exchange, drifts, n + 1 == sweeps.size());
+  }
   diffuse(false);
 }
 
 template <class Real>
-double advance(const Rows& rows, const FaceFluxes& fluxes, double steps, const ScalarOptions& options,
-               ScalarFields& fields, ScalarBudget& budget) {
+StepsAllowed advance(const Rows& rows, const FaceFluxes& fluxes, double steps, const ScalarOptions& options,
+                     ScalarFields& fields, ScalarBudget& budget) {
   std::vector<double> resting;
   const std::vector<int>& moving = fields.work.moving;
   const Update<Real> u{rows, fluxes, options, resting, moving, fields, budget};
@@ -178,17 +182,18 @@ double advance(const Rows& rows, const FaceFluxes& fluxes, double steps, const S
   mark_moving_scalars(options, contents, fields);
   const double eddy = largest_eddy(fluxes);
   budget.air_mismatch = std::max(budget.air_mismatch, air_mismatch);
-  const double allowed = strictest(limits, options.cfl, {}).steps;  // of all runs, for the caller
-  const double share = steps / std::max(1.0, std::ceil(steps / allowed * (1.0 - 1e-12)));
+  const StepLimit whole = strictest(limits, options.cfl, {});
+  const StepsAllowed allowed = allowed_steps(whole, options, moving, eddy);
+  const Cut cut = cut_update(steps, whole, allowed);
   for (double elapsed = 0.0; elapsed < steps;) {
     if (elapsed > 0.0) find_contents(u, kernel, contents);
     resting = find_resting(contents);
-    if (!mark_busy_runs(rows, all, contents, resting, fields)) return allowed;
+    if (!mark_busy_runs(rows, all, contents, resting, strokes(cut, 0.0, fields.reversed), fields)) return allowed;
     if (elapsed > 0.0) {
       find_air(u, elapsed);
       find_limits(rows, fluxes, fields.air, options.cfl, fields.work.computed, limits);
     }
-    SubStep p = plan_sub_step(strictest(limits, options.cfl, fields.work.computed), options, moving, eddy, share,
+    SubStep p = plan_sub_step(strictest(limits, options.cfl, fields.work.computed), options, moving, eddy, cut,
                               steps - elapsed);
     if (p.any_implicit && !all) {  // lines carry it everywhere at once
       all = true;
@@ -196,14 +201,15 @@ double advance(const Rows& rows, const FaceFluxes& fluxes, double steps, const S
     }
     // Drift and diffusion balance each other: both in the sweeps, or both in the lines.
     if (!fluxes.drift[0].empty() && p.any_implicit) p.implicit.assign(fields.scalars(), true);
+    const std::vector<Stroke> sweeps = strokes(cut, p.steps, fields.reversed);
     for (std::size_t first = 0; first == 0 || first < moving.size(); first += scalars_together) {
       const auto begin = moving.begin() + static_cast<std::ptrdiff_t>(first);
       const std::vector<int> group(
           begin, begin + static_cast<std::ptrdiff_t>(std::min(scalars_together, moving.size() - first)));
-      advance_group(Update<Real>{rows, fluxes, options, resting, group, fields, budget}, kernel, elapsed, p);
+      advance_group(Update<Real>{rows, fluxes, options, resting, group, fields, budget}, kernel, elapsed, p, sweeps);
     }
     take_at_walls(fluxes, p.steps, moving, fields, budget);
-    fields.reversed = !fields.reversed;
+    fields.reversed = fields.reversed != !cut.middle;  // a pair is its own mirror image
     ++budget.sub_steps;
     for (std::size_t r = 0; r < rows.runs().size(); ++r)
       (fields.work.computed[r] ? budget.cells_computed : budget.cells_skipped) += rows.runs()[r].count;
@@ -214,8 +220,8 @@ double advance(const Rows& rows, const FaceFluxes& fluxes, double steps, const S
 
 }  // namespace
 
-double advance_scalars(const Rows& rows, const FaceFluxes& fluxes, double steps, const ScalarOptions& options,
-                       ScalarFields& fields, ScalarBudget& budget) {
+StepsAllowed advance_scalars(const Rows& rows, const FaceFluxes& fluxes, double steps, const ScalarOptions& options,
+                             ScalarFields& fields, ScalarBudget& budget) {
   return options.single ? advance<float>(rows, fluxes, steps, options, fields, budget)
                         : advance<double>(rows, fluxes, steps, options, fields, budget);
 }

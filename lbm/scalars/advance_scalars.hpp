@@ -3,6 +3,7 @@
 
 #include "lbm/rows.hpp"
 #include "lbm/scalars/face_fluxes.hpp"
+#include "lbm/scalars/max_steps.hpp"
 #include "lbm/scalars/scalar_fields.hpp"
 
 namespace puffin::lbm {
@@ -25,15 +26,15 @@ double max_steps(const Rows& rows, const FaceFluxes& fluxes, double cfl);
 
 /// Advances the scalars over `steps` air steps (need not be whole) with the given fluxes.
 ///
-/// Dimension-split finite volumes: sweeps x y z, the next update z y x. Each sweep carries the air itself by the same
-/// fluxes, and the amounts by limited slopes (sweep.hpp). Second order in space and time for smooth fields (Strang
-/// 1968), first order at walls and openings, no new extremum ever, conservative: total + gone(budget) changes by
-/// rounding alone. Longer `steps` than max_steps allows are sub-divided. Small diffusion is part of the sweeps,
-/// explicit; where it would cost more than half again as many sub-steps it becomes implicit line by line
-/// (diffuse_lines.hpp). Nothing is done while every scalar is empty. Same bits for any number of threads. Throws
+/// Dimension-split finite volumes: sweeps x y z, the next time z y x, or mirrored pairs (sub_step.hpp). Each sweep
+/// carries the air itself by the same fluxes, and the amounts by limited slopes (sweep.hpp). Second order in space and
+/// time for smooth fields (Strang 1968), first order at walls and openings, no new extremum ever, conservative: total +
+/// gone(budget) changes by rounding alone. Longer `steps` than the fluxes allow are sub-divided. Small diffusion is
+/// part of the sweeps, explicit; where it would cost more than half again as many sub-steps it becomes implicit line by
+/// line (diffuse_lines.hpp). Nothing is done while every scalar is empty. Same bits for any number of threads. Throws
 /// std::invalid_argument if sizes, fluxes or options are inconsistent, std::runtime_error if the fluxes would empty a
-/// cell. Returns max_steps of these fluxes, which is found on the way.
-double advance_scalars(const Rows& rows, const FaceFluxes& fluxes, double steps, const ScalarOptions& options,
-                       ScalarFields& fields, ScalarBudget& budget);
+/// cell. Returns what these fluxes allow, which is found on the way.
+StepsAllowed advance_scalars(const Rows& rows, const FaceFluxes& fluxes, double steps, const ScalarOptions& options,
+                             ScalarFields& fields, ScalarBudget& budget);
 
 }  // namespace puffin::lbm

@@ -31,7 +31,7 @@ void mark_moving_scalars(const ScalarOptions& options, const RunContents& conten
 }
 
 bool mark_busy_runs(const Rows& rows, bool all, const RunContents& contents, const std::vector<double>& resting,
-                    ScalarFields& fields) {
+                    const std::vector<Stroke>& sweeps, ScalarFields& fields) {
   ScalarWork& work = fields.work;
   const std::size_t runs = rows.runs().size();
   std::vector<std::uint8_t> busy(runs, all);
@@ -39,8 +39,8 @@ bool mark_busy_runs(const Rows& rows, bool all, const RunContents& contents, con
     for (const int k : work.moving)
       for (std::size_t r = 0; r < runs; ++r)
         if (contents[k][r].most > resting[k]) busy[r] = 1;
-    for (int sweep = 0; sweep < 3; ++sweep) {
-      const int d = fields.reversed ? 2 - sweep : sweep;
+    for (const Stroke& sweep : sweeps) {
+      const int d = sweep.direction;
       const std::vector<std::uint8_t> before = busy;
       for (std::size_t r = 0; r < runs; ++r)
         if (before[r])

@@ -39,14 +39,19 @@ void find_limits(const Rows& rows, const FaceFluxes& fluxes, const std::vector<d
 }
 
 StepLimit strictest(const std::vector<LimitFound>& of_run, double cfl, const std::vector<std::uint8_t>& computed) {
-  StepLimit limit{0.0, std::numeric_limits<double>::infinity()};
+  constexpr double none = std::numeric_limits<double>::infinity();
+  StepLimit limit{none, {none, none, none}, none};
   double most = 0.0;
+  std::array<double, 3> pair{};
   for (std::size_t r = 0; r < of_run.size(); ++r) {
     if (!computed.empty() && !computed[r]) continue;
     most = std::max(most, of_run[r].demand);
+    for (int c = 0; c < 3; ++c) pair[c] = std::max(pair[c], of_run[r].pair[c]);
     limit.least_air = std::min(limit.least_air, of_run[r].least_air);
   }
-  limit.steps = most > 0.0 ? cfl / most : std::numeric_limits<double>::infinity();
+  if (most > 0.0) limit.steps = cfl / most;
+  for (int c = 0; c < 3; ++c)
+    if (pair[c] > 0.0) limit.pair[c] = 2.0 * cfl / pair[c];
   return limit;
 }
 

@@ -19,6 +19,11 @@ double explicit_steps(const ScalarLaw& law, double diffusivity, double rate, dou
   return 2.0 / (p + std::sqrt(std::max(p * p - 4.0 * rate * rate, 0.0)));
 }
 
+/// The direction in which least flows out of a cell.
+int middle_of_pairs(const StepLimit& whole) {
+  return static_cast<int>(std::max_element(whole.pair.begin(), whole.pair.end()) - whole.pair.begin());
+}
+
 }  // namespace
 
 double largest_eddy(const FaceFluxes& fluxes) {
@@ -28,16 +33,49 @@ double largest_eddy(const FaceFluxes& fluxes) {
   return largest;
 }
 
+StepsAllowed allowed_steps(const StepLimit& whole, const ScalarOptions& options, const std::vector<int>& moving,
+                           double eddy) {
+  StepsAllowed allowed{whole.steps, whole.pair[middle_of_pairs(whole)]};
+  const double rate = options.cfl / allowed.pair;
+  for (const int k : moving) {
+    const ScalarLaw& law = options.scalar[k];
+    const double diffusivity = law.diffusivity + eddy;
+    // In the middle a pair takes all of its steps at once.
+    if (diffusivity > 0.0)
+      allowed.pair = std::min(allowed.pair, explicit_steps(law, diffusivity, rate, whole.least_air));
+  }
+  return allowed;
+}
+
+Cut cut_update(double steps, const StepLimit& whole, const StepsAllowed& allowed) {
+  const auto pieces = [steps](double longest) { return std::max(1.0, std::ceil(steps / longest * (1.0 - 1e-12))); };
+  const double singles = pieces(allowed.single);
+  const double pairs = pieces(allowed.pair);
+  if (5.0 * pairs < 3.0 * singles) return {middle_of_pairs(whole), steps / pairs};
+  return {std::nullopt, steps / singles};
+}
+
+std::vector<Stroke> strokes(const Cut& cut, double steps, bool reversed) {
+  if (!cut.middle) {
+    if (reversed) return {{2, steps}, {1, steps}, {0, steps}};
+    return {{0, steps}, {1, steps}, {2, steps}};
+  }
+  const int c = *cut.middle, a = c == 0 ? 1 : 0, b = c == 2 ? 1 : 2;
+  const double half = 0.5 * steps;
+  return {{a, half}, {b, half}, {c, steps}, {b, half}, {a, half}};
+}
+
 SubStep plan_sub_step(const StepLimit& limit, const ScalarOptions& options, const std::vector<int>& moving, double eddy,
-                      double share, double remaining) {
-  const double longest = std::min({limit.steps, share, remaining});
+                      const Cut& cut, double remaining) {
+  const double by_flow = cut.middle ? limit.pair[*cut.middle] : limit.steps;
+  const double longest = std::min({by_flow, cut.share, remaining});
   SubStep p{longest, false, std::vector<bool>(options.scalar.size(), false)};
   for (const int k : moving) {
     const ScalarLaw& law = options.scalar[k];
     if (law.diffusivity + eddy == 0.0) continue;
-    const double rate = options.cfl / limit.steps;
+    const double rate = options.cfl / by_flow;
     double allowed = explicit_steps(law, law.diffusivity + eddy, rate, limit.least_air);
-    if (1.5 * allowed < longest && law.diffusivity > 0.0) {
+    if (!cut.middle && 1.5 * allowed < longest && law.diffusivity > 0.0) {
       p.any_implicit = p.implicit[k] = true;
       if (eddy == 0.0) continue;
       allowed = explicit_steps(law, eddy, rate, limit.least_air);  // its eddy part stays in the sweeps

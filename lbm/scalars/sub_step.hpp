@@ -1,6 +1,7 @@
 #pragma once
 // The length of a sub-step of the transport, and which scalars diffuse implicitly in it.
 
+#include <optional>
 #include <vector>
 
 #include "lbm/scalars/face_fluxes.hpp"
@@ -8,6 +9,20 @@
 #include "lbm/scalars/scalar_fields.hpp"
 
 namespace puffin::lbm {
+
+/// One sweep of a sub-step.
+struct Stroke {
+  int direction = 0;
+  double steps = 0.0;  // air steps
+};
+
+/// How an update is cut up, found from the whole flow so that what happens to a scalar does not depend on where others
+/// are: one sub-step after the other, or pairs of them, mirrored, whose two sweeps in the middle are one. A pair does
+/// with five sweeps what takes six; it is symmetric, so of second order in time by itself (Strang 1968).
+struct Cut {
+  std::optional<int> middle;  // direction of the sweep in the middle of a pair; none: no pairs
+  double share = 0.0;         // air steps of a sub-step, or of a pair
+};
 
 struct SubStep {
   double steps = 0.0;  // air steps
@@ -18,11 +33,22 @@ struct SubStep {
 /// Largest diffusivity that all scalars have in common.
 double largest_eddy(const FaceFluxes& fluxes);
 
-/// The next sub-step of `remaining` air steps, for the scalars `moving`: equal parts of what remains, each within
-/// `limit` and `share`, and within what explicit diffusion allows unless that costs more than half of it: then the
-/// scalar diffuses implicitly. `share` comes from the whole flow, so that a scalar's steps do not depend on where other
-/// scalars are. Throws std::runtime_error where the fluxes would empty a cell within any step.
+/// What one sub-step of the scalars `moving` may cover by the flow, and what a pair may by the flow and by explicit
+/// diffusion.
+StepsAllowed allowed_steps(const StepLimit& whole, const ScalarOptions& options, const std::vector<int>& moving,
+                           double eddy);
+
+/// Pairs of `allowed.pair` around the direction that allows most, where fewer sweeps do the `steps` then.
+Cut cut_update(double steps, const StepLimit& whole, const StepsAllowed& allowed);
+
+/// The sweeps of a sub-step or of a pair. reversed: z y x.
+std::vector<Stroke> strokes(const Cut& cut, double steps, bool reversed);
+
+/// The next sub-step or pair of `remaining` air steps, for the scalars `moving`: equal parts of what remains, each
+/// within `limit` and the share, and within what explicit diffusion allows unless that costs more than half of it: then
+/// the scalar diffuses implicitly (never in a pair). Throws std::runtime_error where the fluxes would empty a cell
+/// within any step.
 SubStep plan_sub_step(const StepLimit& limit, const ScalarOptions& options, const std::vector<int>& moving, double eddy,
-                      double share, double remaining);
+                      const Cut& cut, double remaining);
 
 }  // namespace puffin::lbm

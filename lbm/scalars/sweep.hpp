@@ -28,6 +28,7 @@
 // Source of the scheme: B. van Leer, J. Comput. Phys. 23, 276 (1977); of the carried air: R. C. Easter, Mon. Weather
 // Rev. 121, 297 (1993).
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -76,8 +77,9 @@ struct LimitRun {
   const double* drift[3] = {};  // [cell] on top of mass, or null
 };
 struct LimitFound {
-  double demand = 0.0;     // largest cfl / steps
-  double least_air = 0.0;  // smallest theta
+  double demand = 0.0;           // largest cfl / steps
+  std::array<double, 3> pair{};  // [middle] the same for each half of a mirrored pair of sub-steps
+  double least_air = 0.0;        // smallest theta
 };
 
 /// What a run holds.

@@ -186,9 +186,19 @@ double mismatch(int count, const double* air, const double* density) {
   return found;
 }
 
+/// What a cell asks of each half of a mirrored pair around direction `c` (max_steps.hpp), before the division by theta.
+[[gnu::always_inline]] inline Reals pair_demand(const Reals (&out)[3], const Reals (&net)[3], int c, double cfl) {
+  using detail::larger;
+  const int a = c == 0 ? 1 : 0, b = c == 2 ? 1 : 2;
+  const Reals one = net[a], two = one + net[b], three = two + 2.0 * net[c], four = three + net[b];
+  const Reals there = larger(larger(out[a], out[b] + cfl * one), 2.0 * out[c] + cfl * two);
+  const Reals back = larger(out[b] + cfl * three, out[a] + cfl * four);
+  return larger(larger(there, back), 2.0 * cfl * larger(larger(one, two), larger(three, four)));
+}
+
 LimitFound limit(const LimitRun& run) {
   using detail::larger;
-  Reals most{}, least = Reals{} + run.air[0];
+  Reals most{}, pair[3] = {}, least = Reals{} + run.air[0];
   Lanes<long long, lanes> lane;
   for (int l = 0; l < lanes; ++l) lane[l] = l;
   for (int n = 0; n < run.count; n += lanes) {
@@ -216,11 +226,13 @@ LimitFound limit(const LimitRun& run) {
     const Reals theta = mine ? load<double>(run.air + n) : Reals{} + run.air[0];
     const Reals need = larger(larger(first, second), larger(third, 2.0 * run.cfl * between)) / theta;
     most = larger(mine ? need : Reals{}, most);
+    for (int c = 0; c < 3; ++c) pair[c] = larger(mine ? pair_demand(out, net, c, run.cfl) / theta : Reals{}, pair[c]);
     least = detail::smaller(theta, least);
   }
-  LimitFound found{most[0], least[0]};
+  LimitFound found{most[0], {pair[0][0], pair[1][0], pair[2][0]}, least[0]};
   for (int l = 1; l < lanes; ++l) {
     found.demand = larger(most[l], found.demand);
+    for (int c = 0; c < 3; ++c) found.pair[c] = larger(pair[c][l], found.pair[c]);
     found.least_air = detail::smaller(least[l], found.least_air);
   }
   return found;

@@ -81,7 +81,7 @@ TEST(SameBits, for_every_instruction_set) {
       const double* faces = mass.data() + 1;
       const LimitRun limits{n, {faces, faces, faces}, {&open[1], &open[1], &open[1]}, {-1, -1, -1}, &air[1], 0.8};
       const LimitFound found = kernel.limit(limits);
-      all.insert(all.end(), {found.demand, found.least_air});
+      all.insert(all.end(), {found.demand, found.least_air, found.pair[0], found.pair[1], found.pair[2]});
       return all;
     };
     std::vector<SweepKernel> kernels{baseline_sweep(), select_sweep()};

@@ -1,0 +1,145 @@
+// Mirrored pairs of sub-steps: five sweeps a b c b a instead of six.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+
+#include "lbm/scalars/sub_step.hpp"
+#include "tests/lbm/scalars/scene.hpp"
+
+namespace puffin::lbm {
+namespace {
+
+StepLimit limit_of(const Scene& s, double cfl) {
+  std::vector<LimitFound> limits;
+  find_limits(s.rows, s.fluxes, s.fluxes.density, cfl, {}, limits);
+  return strictest(limits, cfl, {});
+}
+
+TEST(Pairs, in_a_uniform_flow_the_slowest_direction_takes_both_steps_at_once) {
+  Scene s = make_scene({8, 8, 8}, {true, true, true});
+  set_flow(s, [](int d, int, int, int) { return d == 0 ? 0.1 : d == 1 ? 0.02 : -0.08; });
+  const StepLimit limit = limit_of(s, 0.8);
+  EXPECT_NEAR(limit.steps, 8.0, 1e-12);
+  EXPECT_NEAR(limit.pair[0], 8.0, 1e-12);
+  EXPECT_NEAR(limit.pair[1], 16.0, 1e-12);
+  EXPECT_NEAR(limit.pair[2], 10.0, 1e-12);
+}
+
+TEST(Pairs, mind_the_air_that_earlier_sweeps_took) {
+  // The jet of StepLimit.minds_the_air_that_earlier_sweeps_took, n steps for each half. Around z, the cells that feed
+  // it lose most: 2n 0.2 <= cfl. Around x, of which the middle cell loses 2n 0.2: y has taken 0.2 n before, z has
+  // brought 0.4 n: 2n 0.2 <= cfl (1 + 0.2 n).
+  Scene s = make_scene({3, 3, 3}, {false, false, false});
+  s.fluxes.mass[0][s.at(1, 1, 1)] = 0.1;
+  s.fluxes.mass[0][s.at(0, 1, 1)] = -0.1;
+  s.fluxes.mass[1][s.at(1, 1, 1)] = 0.1;
+  s.fluxes.mass[1][s.at(1, 0, 1)] = -0.1;
+  s.fluxes.mass[2][s.at(1, 1, 0)] = 0.2;
+  s.fluxes.mass[2][s.at(1, 1, 1)] = -0.2;
+  EXPECT_NEAR(limit_of(s, 0.3).pair[2], 2.0 * 0.3 / 0.4, 1e-12);
+  EXPECT_NEAR(limit_of(s, 0.3).pair[0], 2.0 * 0.3 / 0.34, 1e-12);
+}
+
+TEST(Pairs, are_taken_where_they_save_sweeps) {
+  StepLimit flow{5.0, {5.0, 6.0, 10.0}, 1.0};
+  const StepsAllowed allowed = allowed_steps(flow, {{{}}}, {0}, 0.0);
+  EXPECT_EQ(allowed.single, 5.0);
+  EXPECT_EQ(allowed.pair, 10.0);
+  EXPECT_FALSE(cut_update(5.0, flow, allowed).middle);  // one sub-step does
+  const Cut two = cut_update(10.0, flow, allowed);
+  ASSERT_TRUE(two.middle);
+  EXPECT_EQ(*two.middle, 2);
+  EXPECT_EQ(two.share, 10.0);
+  EXPECT_FALSE(cut_update(11.0, flow, allowed).middle);  // 3 sub-steps, 2 pairs
+  const Cut four = cut_update(18.0, flow, allowed);
+  ASSERT_TRUE(four.middle);
+  EXPECT_EQ(four.share, 9.0);
+
+  int directions[5], n = 0;
+  double covered[3] = {};
+  for (const Stroke& stroke : strokes(two, 10.0, false)) {
+    directions[n++] = stroke.direction;
+    covered[stroke.direction] += stroke.steps;
+  }
+  for (const double steps : covered) EXPECT_EQ(steps, 10.0);
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(directions[i], directions[4 - i]);
+}
+
+TEST(Pairs, are_no_longer_than_explicit_diffusion_allows) {
+  const StepLimit flow{5.0, {5.0, 6.0, 10.0}, 1.0};
+  // No flow would be left to outrun diffusion: with the rate r = 0.8/10, 4 D n <= (1 - r n)^2 (half of the air, two
+  // faces: sub_step.cpp), D = 0.1: n <= 1.75.
+  const StepsAllowed allowed = allowed_steps(flow, {{{Scheme::mc, 0.1}}}, {0}, 0.0);
+  EXPECT_NEAR(4.0 * 0.1 * allowed.pair, std::pow(1.0 - 0.08 * allowed.pair, 2), 1e-12);
+  EXPECT_FALSE(cut_update(10.0, flow, allowed).middle);
+}
+
+/// Relative L2 error of a hill after a turn of a solid-body rotation; `part` of the longest single sub-step an update.
+double turned_hill_error(double part, std::int64_t& sub_steps) {
+  const int n = 64;
+  Scene s = make_scene({n, n, 4}, {false, false, true});
+  const double turn = 0.1 / 32.0;  // [1/step]: 0.1 at the middle of a wall
+  const auto from_middle = [](double i) { return i - 0.5 * (n - 1); };
+  set_curl(s, [&](int d, int i, int j, int) {  // along z, on the corner above the cell
+    const double x = from_middle(i + 0.5), y = from_middle(j + 0.5), r = std::hypot(x, y);
+    return d != 2 || r > 30.0 ? 0.0 : 0.5 * turn * (900.0 - r * r);
+  });
+  ScalarFields f = s.fields();
+  ScalarBudget b = s.budget();
+  const auto hill = [&](int i, int j) {
+    return std::exp(-0.5 * (std::pow(from_middle(i) - 12.0, 2) + std::pow(from_middle(j), 2)) / 25.0);
+  };
+  for (int k = 0; k < 4; ++k)
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i) f.amount[0][s.at(i, j, k)] = hill(i, j);
+  const double before = total(f, 0), time = 2.0 * std::acos(-1.0) / turn;
+  const double steps = part * max_steps(s.rows, s.fluxes, 0.8);
+  const int updates = static_cast<int>(std::ceil(time / steps));
+  for (int m = 0; m < updates; ++m) advance_scalars(s.rows, s.fluxes, time / updates, {{{}}}, f, b);
+  EXPECT_NEAR(total(f, 0) / before, 1.0, 1e-12);
+  double error = 0.0, norm = 0.0;
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i) {
+      const double now = f.amount[0][s.at(i, j, 1)];
+      EXPECT_GE(now, 0.0);
+      EXPECT_LE(now, 1.0 + 1e-12);
+      error += std::pow(now - hill(i, j), 2);
+      norm += std::pow(hill(i, j), 2);
+    }
+  sub_steps = b.sub_steps;
+  return std::sqrt(error / norm);
+}
+
+TEST(Pairs, turn_a_hill_as_well_as_single_sub_steps) {
+  std::int64_t singles = 0, pairs = 0;
+  const double by_singles = turned_hill_error(1.0, singles), by_pairs = turned_hill_error(2.0, pairs);
+  std::cout << "L2 errors: " << by_singles << " with " << singles << " sub-steps, " << by_pairs << " with " << pairs
+            << " pairs\n";
+  EXPECT_LE(std::abs(2 * pairs - singles), 2);
+  EXPECT_LT(by_pairs, 1.05 * by_singles);  // the same half steps; what differs is the order of the sweeps
+  EXPECT_GT(by_singles, 1e-4);             // and there is an error to compare
+}
+
+TEST(Pairs, keep_a_constant_concentration) {
+  for (const bool single : {false, true}) {
+    Scene s = make_scene({24, 20, 16}, {false, true, false});
+    set_curl(s, [](int d, int i, int j, int k) { return (d == 2 ? 0.06 : 0.01) * noise(5, d, i, j, k); });
+    const StepLimit limit = limit_of(s, 0.8);
+    ASSERT_GT(limit.pair[2], 1.2 * limit.steps);
+    ScalarFields f = s.fields();
+    ScalarBudget b = s.budget();
+    for (const auto& run : s.rows.runs()) std::fill_n(f.amount[0].begin() + run.first, run.count, 1.0);
+    ScalarOptions o{{{}}};
+    o.single = single;
+    for (int n = 0; n < 50; ++n) advance_scalars(s.rows, s.fluxes, limit.pair[2], o, f, b);
+    EXPECT_EQ(b.sub_steps, 50);  // one pair an update
+    for (const auto& run : s.rows.runs())
+      for (int i = 0; i < run.count; ++i) ASSERT_NEAR(f.amount[0][run.first + i], 1.0, single ? 1e-6 : 1e-12);
+  }
+}
+
+}  // namespace
+}  // namespace puffin::lbm
