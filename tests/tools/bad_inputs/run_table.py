@@ -83,7 +83,7 @@ def attempt(program: str, base: str, row: dict, sanitized: bool) -> tuple[int | 
         except subprocess.TimeoutExpired:
             code, said = f"none within {seconds} s", ""
         left = {name.removeprefix("here/") for name in listing(Path(outer)) - before}
-        prefix, source = Path(program).resolve().parents[1], HERE.parents[2]
+        prefix, source = Path(program).parents[1], HERE.parents[2]
         for path, name in ((folder, "{here}"), (prefix, "{prefix}"), (source, "{source}")):
             said = said.replace(str(path), name)
         return code, said, left
@@ -125,7 +125,7 @@ def page(rows: list[dict]) -> str:
 
 def main() -> int:
     parser = argparse.ArgumentParser()
-    parser.add_argument("program")
+    parser.add_argument("program", type=lambda given: str(Path(given).resolve()))  # each input has a folder of its own
     parser.add_argument("--only", default="")
     parser.add_argument("--show", action="store_true")
     parser.add_argument("--document", type=Path)
