@@ -79,6 +79,13 @@ std::vector<std::array<float, 3>> vectors_of(vtkFieldData* data, const std::stri
   return out;
 }
 
+/// An array may be absent; one that is there has a value for each cell, carrier or triangle.
+void demand_length(const std::filesystem::path& file, const std::string& name, std::size_t length, std::size_t wanted) {
+  if (length != 0 && length != wanted)
+    throw OutputError(file.string() + " is damaged: its array '" + name + "' has " + std::to_string(length) +
+                      " values, not " + std::to_string(wanted));
+}
+
 std::vector<std::array<double, 3>> points_of(vtkPolyData* poly) {
   std::vector<std::array<double, 3>> out(static_cast<std::size_t>(poly->GetNumberOfPoints()));
   for (std::size_t i = 0; i < out.size(); ++i) poly->GetPoint(static_cast<vtkIdType>(i), out[i].data());
@@ -98,16 +105,20 @@ FieldFrame read_field_frame(const std::filesystem::path& file) {
     frame.origin[c] = image->GetOrigin()[c] + 0.5 * frame.dx;
   }
   frame.fluid = values_of<std::uint8_t>(data, "fluid");
-  if (frame.fluid.size() != static_cast<std::size_t>(frame.cells()))
-    throw OutputError(file.string() + " has no cell array 'fluid'");
+  const auto cells = static_cast<std::size_t>(frame.cells());
+  if (frame.fluid.size() != cells) throw OutputError(file.string() + " has no cell array 'fluid'");
   for (int i = 0; i < data->GetNumberOfArrays(); ++i) {
-    const std::string name = data->GetArrayName(i);
+    const char* given = data->GetArrayName(i);
+    const std::string name = given ? given : "";
     if (name == "velocity") {
       frame.velocity = values_of<float>(data, name);
+      demand_length(file, name, frame.velocity.size(), 3 * cells);
     } else if (name == "pressure") {
       frame.pressure = values_of<float>(data, name);
+      demand_length(file, name, frame.pressure.size(), cells);
     } else if (name.rfind("fines_", 0) == 0) {
       frame.fines.push_back({name.substr(6), values_of<float>(data, name)});
+      demand_length(file, name, frame.fines.back().values.size(), cells);
     } else if (name != "fluid" && name != vtkDataSetAttributes::GhostArrayName()) {
       frame.more.push_back({name, values_of<float>(data, name)});
     }
@@ -129,6 +140,11 @@ CarrierFrame read_carrier_frame(const std::filesystem::path& file) {
   frame.asleep = values_of<std::uint8_t>(data, "asleep");
   if (frame.diameter.size() != frame.position.size() || frame.velocity.size() != frame.position.size())
     throw OutputError(file.string() + " lacks the arrays of carriers");
+  const std::size_t count = frame.position.size();
+  demand_length(file, "id", frame.id.size(), count);
+  demand_length(file, "spin", frame.spin.size(), count);
+  demand_length(file, "fines", frame.fines.size(), count);
+  demand_length(file, "asleep", frame.asleep.size(), count);
   return frame;
 }
 
@@ -142,14 +158,23 @@ WallFrame read_wall_frame(const std::filesystem::path& file) {
   for (vtkIdType i = 0; i < poly->GetNumberOfCells(); ++i) {
     poly->GetCellPoints(i, corners);
     if (corners->GetNumberOfIds() != 3) throw OutputError(file.string() + " holds cells that are no triangles");
-    frame.triangles.push_back({static_cast<int>(corners->GetId(0)), static_cast<int>(corners->GetId(1)),
-                               static_cast<int>(corners->GetId(2))});
+    std::array<int, 3> triangle{};
+    for (int c = 0; c < 3; ++c) {
+      const vtkIdType corner = corners->GetId(c);  // VTK reads any number
+      if (corner < 0 || corner >= poly->GetNumberOfPoints())
+        throw OutputError(file.string() + " is damaged: a triangle has a corner that is not there");
+      triangle[c] = static_cast<int>(corner);
+    }
+    frame.triangles.push_back(triangle);
   }
   frame.patch = values_of<std::int32_t>(data, "patch");
   if (frame.patch.size() != frame.triangles.size()) throw OutputError(file.string() + " has no cell array 'patch'");
   frame.fines = values_of<float>(data, "fines");
   frame.hits = values_of<float>(data, "hits");
   frame.energy = values_of<float>(data, "energy");
+  demand_length(file, "fines", frame.fines.size(), frame.triangles.size());
+  demand_length(file, "hits", frame.hits.size(), frame.triangles.size());
+  demand_length(file, "energy", frame.energy.size(), frame.triangles.size());
   auto* names = vtkStringArray::SafeDownCast(poly->GetFieldData()->GetAbstractArray("patch_names"));
   const std::vector<int> openings = values_of<int>(poly->GetFieldData(), "patch_opening");
   for (vtkIdType i = 0; names && i < names->GetNumberOfValues(); ++i) {

@@ -1,6 +1,8 @@
 #include "tools/puffin/replay_record.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <initializer_list>
 
 #include "tools/output/events_file.hpp"
 #include "tools/output/output_error.hpp"
@@ -21,6 +23,36 @@ void add_carriers(const coupling::Fines& fines, ReplayTables& tables) {
         tables.slip.push_back({fines.slip.seconds[at], fines.slip.metres[at], static_cast<std::int32_t>(id),
                                static_cast<std::int32_t>(k)});
   }
+}
+
+output::OutputError damaged(const std::filesystem::path& file, const char* what) {
+  return output::OutputError(file.string() + " is damaged: " + what + " out of range");
+}
+
+/// Refuses what no run writes: another carrier than the run had, a value that is no number, a negative speed or dose.
+void demand_sound(const std::filesystem::path& file, const coupling::FinesRecord& r) {
+  const auto demand = [&](bool holds, const char* what) {
+    if (!holds) throw damaged(file, what);
+  };
+  const auto carriers = static_cast<std::int64_t>(r.carriers.size());
+  const auto numbers = [](std::initializer_list<double> values) {
+    return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
+  };
+  for (const auto& c : r.contacts) {
+    demand(c.a >= 0 && c.a < carriers && c.b >= -1 && c.b < carriers, "the carrier of a contact");
+    demand(numbers({c.time, c.normal_speed, c.tangential_speed, c.angle, c.drag_a, c.drag_b}) &&
+               c.normal_speed >= 0.0 && c.tangential_speed >= 0.0,
+           "a contact");
+  }
+  for (const auto& c : r.carriers) demand(numbers({c.initial, c.drag_rest}) && c.initial >= 0.0, "a carrier");
+  for (const auto& s : r.slip) {
+    demand(s.carrier >= 0 && s.carrier < carriers, "the carrier of a slip");
+    demand(numbers({s.seconds, s.metres}) && s.seconds >= 0.0 && s.metres >= 0.0, "a slip");
+  }
+  for (const auto& set : r.sets)
+    for (const auto& share : set)
+      demand(numbers({share.released, share.in_air, share.emitted, share.deposited}), "a scalar");
+  demand(numbers({r.end}), "the end");
 }
 
 }  // namespace
@@ -57,6 +89,8 @@ StoredRun read_stored_run(const std::filesystem::path& folder) {
   }
   const ReplayTables tables = output::read_replay_tables(file);
   std::vector<output::EventRecord> events = output::read_events(file);
+  for (const auto& e : events)
+    if (!std::isfinite(e.order)) throw damaged(file, "a contact");
   std::sort(events.begin(), events.end(), [](const auto& x, const auto& y) { return x.order < y.order; });
   StoredRun run;
   run.scalars = tables.scalars;
@@ -66,25 +100,20 @@ StoredRun read_stored_run(const std::filesystem::path& folder) {
   for (const auto& e : events)
     r.contacts.push_back({e.a, e.b, e.time_start, e.normal_speed, e.tangential_speed, e.angle, e.a_loses != 0,
                           e.b_loses != 0, e.drag_a, e.drag_b});
-  const auto damaged = [&](const char* what) {
-    return output::OutputError(file.string() + " is damaged: " + what + " out of range");
-  };
   r.carriers.resize(tables.carriers.size());
   for (const auto& c : tables.carriers) {
-    if (c.id < 0 || c.id >= static_cast<std::int32_t>(r.carriers.size())) throw damaged("a carrier");
+    if (c.id < 0 || c.id >= static_cast<std::int32_t>(r.carriers.size())) throw damaged(file, "a carrier");
     r.carriers[c.id] = {c.initial, c.emitted != 0, c.drag_rest};
   }
-  for (const auto& s : tables.slip) {
-    if (s.carrier < 0 || s.carrier >= static_cast<std::int32_t>(r.carriers.size())) throw damaged("a slip");
-    r.slip.push_back({s.carrier, s.slip_class, s.seconds, s.metres});
-  }
+  for (const auto& s : tables.slip) r.slip.push_back({s.carrier, s.slip_class, s.seconds, s.metres});
   r.sets.resize(tables.scalars.size());
   for (const auto& a : tables.air) {
     if (a.set < 0 || a.set >= static_cast<std::int32_t>(r.sets.size()) || a.mechanism < 0 ||
         a.mechanism >= coupling::mechanisms)
-      throw damaged("a scalar");
+      throw damaged(file, "a scalar");
     r.sets[a.set][a.mechanism] = {a.released, a.in_air, a.emitted, a.deposited};
   }
+  demand_sound(file, r);
   return run;
 }
 

@@ -144,6 +144,45 @@ TEST(VtkWalls, ReadBackWithTheNamesOfThePatches) {
   EXPECT_TRUE(back.patches[1].opening && !back.patches[0].opening);
 }
 
+/// The file with one word of its text replaced.
+void alter(const std::filesystem::path& file, const std::string& what, const std::string& with) {
+  std::string text = text_of(file);
+  ASSERT_NE(text.find(what), std::string::npos) << what;
+  text.replace(text.find(what), what.size(), with);
+  std::ofstream(file, std::ios::binary) << text;
+}
+
+// VTK's readers take any corner and any number of components; whoever paints the frame takes them for sound.
+TEST(VtkWalls, ACornerThatIsNotThereIsDamage) {
+  const Scratch folder;
+  std::ofstream(folder / "walls.vtp")
+      << R"(<VTKFile type="PolyData" version="1.0"><PolyData><Piece NumberOfPoints="3" NumberOfPolys="1">
+<Points><DataArray type="Float64" NumberOfComponents="3" format="ascii">0 0 0 1 0 0 0 1 0</DataArray></Points>
+<CellData><DataArray type="Int32" Name="patch" format="ascii">0</DataArray></CellData>
+<Polys><DataArray type="Int32" Name="connectivity" format="ascii">0 1 2</DataArray>
+<DataArray type="Int32" Name="offsets" format="ascii">3</DataArray></Polys>
+</Piece><FieldData><Array type="String" Name="patch_names" NumberOfTuples="1" format="ascii">119 0</Array></FieldData>
+</PolyData></VTKFile>)";
+  EXPECT_EQ(read_wall_frame(folder / "walls.vtp").triangles.size(), 1U) << "sound before it is altered";
+  for (const char* corners : {"0 1 3", "0 1 1000000000", "-1 1 2"}) {
+    alter(folder / "walls.vtp", "0 1 2", corners);
+    EXPECT_THROW(read_wall_frame(folder / "walls.vtp"), OutputError) << corners;
+    alter(folder / "walls.vtp", corners, "0 1 2");
+  }
+}
+
+TEST(VtkFields, AVelocityOfOneComponentIsDamage) {
+  const Scratch folder;
+  std::ofstream(folder / "a.vti")
+      << R"(<VTKFile type="ImageData" version="1.0"><ImageData WholeExtent="0 2 0 1 0 1" Origin="0 0 0" Spacing="1 1 1">
+<Piece Extent="0 2 0 1 0 1"><CellData><DataArray type="UInt8" Name="fluid" format="ascii">1 1</DataArray>
+<DataArray type="Float32" Name="velocity" NumberOfComponents="3" format="ascii">1 2 3 4 5 6</DataArray>
+</CellData></Piece></ImageData></VTKFile>)";
+  EXPECT_EQ(read_field_frame(folder / "a.vti").velocity.size(), 6U) << "sound before it is altered";
+  alter(folder / "a.vti", "NumberOfComponents=\"3\" format=\"ascii\">1 2 3 4 5 6", "format=\"ascii\">1 2");
+  EXPECT_THROW(read_field_frame(folder / "a.vti"), OutputError);
+}
+
 TEST(VtkSeries, EveryFrameIsListedWithItsExactTime) {
   const Scratch folder;
   VtkSeries series(folder / "vtk", "fields");

@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/tools/run/small_dose.hpp"
+#include "tools/output/events_file.hpp"
+#include "tools/output/replay_tables.hpp"
 #include "tools/output/summary.hpp"
 
 namespace {
@@ -62,6 +64,44 @@ TEST_F(Replay, TheRunsOwnConstantsReturnItsResults) {
   EXPECT_EQ(puffin("replay out --micromodels bad.toml", "bad"), 3);
   EXPECT_NE(text("bad.log").find("bad.toml:3"), std::string::npos) << text("bad.log");
   EXPECT_EQ(puffin("replay nowhere --micromodels lactose-3.6e-3.toml", "none"), 7);
+}
+
+// Its one contact is sound at first, then wrong in one way after the other.
+TEST_F(Replay, ARecordThatNoRunWritesIsRefused) {
+  const auto replayed = [&](const output::EventRecord& contact, const output::ReplayTables::Slip& slip) {
+    std::filesystem::create_directories(folder_ / "out");
+    output::EventsFile(folder_ / "out" / "events.h5").append({&contact, 1});
+    output::ReplayTables tables;
+    tables.end = 1e-3;
+    tables.carriers = {{2000.0, 0.0, 0, 0}};
+    tables.slip = {slip};
+    tables.air = {{}};
+    tables.scalars = {"fines"};
+    output::write_replay_tables(folder_ / "out" / "events.h5", tables);
+    return puffin("replay out --micromodels lactose-3.6e-3.toml", "said");
+  };
+  output::EventRecord sound;
+  sound.a = 0, sound.b = -1, sound.normal_speed = 1.0, sound.angle = 90.0, sound.a_loses = 1;
+  const output::ReplayTables::Slip slip{1e-3, 1e-3, 0, 0};
+  ASSERT_EQ(replayed(sound, slip), 0) << text("said.log");
+  const auto is_damage = [&](int code) {
+    return code == 7 && text("said.log").find("events.h5 is damaged: ") != std::string::npos;
+  };
+  const double nan = std::nan("");
+  for (const int carrier : {-5, 1, 1000000000}) {
+    auto wrong = sound;
+    wrong.a = carrier;
+    EXPECT_TRUE(is_damage(replayed(wrong, slip))) << carrier << text("said.log");
+  }
+  for (const auto member :
+       {&output::EventRecord::order, &output::EventRecord::time_start, &output::EventRecord::normal_speed,
+        &output::EventRecord::angle, &output::EventRecord::drag_a}) {
+    auto wrong = sound;
+    wrong.*member = nan;
+    EXPECT_TRUE(is_damage(replayed(wrong, slip))) << text("said.log");
+  }
+  EXPECT_TRUE(is_damage(replayed(sound, {nan, 1e-3, 0, 0}))) << text("said.log");
+  EXPECT_TRUE(is_damage(replayed(sound, {1e-3, 1e-3, 1, 0}))) << text("said.log");
 }
 
 TEST_F(Replay, MicromodelsAreFittedAndShown) {
