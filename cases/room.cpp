@@ -17,6 +17,8 @@ std::string digits(double value) {
 
 bool has_lattice(const Case& c) { return c.air.model == AirModel::lbm || c.numerics.dx || c.numerics.cells; }
 
+}  // namespace
+
 double cells_in_box(const Surface& s, double dx) {
   Vec3 low = Vec3::Constant(INFINITY), high = -low;
   for (const Vec3& v : s.mesh.vertices) {
@@ -25,8 +27,6 @@ double cells_in_box(const Surface& s, double dx) {
   }
   return s.mesh.vertices.empty() ? 0.0 : ((high - low) / dx).array().max(1.0).prod();
 }
-
-}  // namespace
 
 double least_memory(const Case& c, const Surface& s) {
   constexpr double parcel = 200.0;  // position, velocity, spin, size, fines and their copies [byte]

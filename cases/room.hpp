@@ -17,6 +17,9 @@ class TooLarge : public std::runtime_error {
 /// Most cells in the box around a device: places in a lattice are numbered with 32 bits.
 inline constexpr double most_cells = 4294967296.0;
 
+/// Cells of width dx in the box around the surface, at least one each way; 0 without a surface.
+double cells_in_box(const Surface& s, double dx);
+
 /// A lower bound of the memory of a run [byte]: the cells in the volume, their populations once, the carriers.
 double least_memory(const Case& c, const Surface& s);
 
