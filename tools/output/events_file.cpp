@@ -34,7 +34,7 @@ Hdf5Handle compound() {
 }
 
 std::vector<EventRecord> read_all(const Hdf5File& file, hid_t dataset) {
-  std::vector<EventRecord> records(file.length(dataset));
+  std::vector<EventRecord> records(file.stored_length(dataset));
   const Hdf5Handle type = compound();
   if (!records.empty()) {
     file.good(H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, records.data()), "read");

@@ -1,11 +1,21 @@
 #include "tools/output/hdf5_handle.hpp"
 
+#include <algorithm>
 #include <fstream>
 #include <vector>
 
 #include "tools/output/format_version.hpp"
 
 namespace puffin::output {
+namespace {
+
+/// HDF5 writes as many values as the file says, whatever room there is.
+bool is_single(hid_t attribute) {
+  const Hdf5Handle space(H5Aget_space(attribute), H5Sclose);
+  return H5Sget_simple_extent_npoints(space) == 1;
+}
+
+}  // namespace
 
 hid_t Hdf5File::good(hid_t id, const std::string& what) const {
   if (id < 0) {
@@ -51,7 +61,7 @@ void Hdf5File::check_format(const std::string& format) const {
   int version = 0;
   if (H5Aexists(file_, "format_version") > 0) {
     const Hdf5Handle attribute(H5Aopen(file_, "format_version", H5P_DEFAULT), H5Aclose);
-    H5Aread(attribute, H5T_NATIVE_INT, &version);
+    if (is_single(attribute)) H5Aread(attribute, H5T_NATIVE_INT, &version);
   }
   if (text(file_, "format") != format)
     throw OutputError(path_.string() + " is no " + format + " file; it comes from another program");
@@ -74,6 +84,16 @@ Hdf5Handle Hdf5File::create_growing(hid_t parent, const std::string& name, hid_t
 hsize_t Hdf5File::length(hid_t dataset) const {
   const Hdf5Handle space(good(H5Dget_space(dataset), "read"), H5Sclose);
   return static_cast<hsize_t>(H5Sget_simple_extent_npoints(space));
+}
+
+hsize_t Hdf5File::stored_length(hid_t dataset) const {
+  constexpr hsize_t densest = 1032;  // deflate packs no tighter
+  const Hdf5Handle type(good(H5Dget_type(dataset), "read"), H5Tclose);
+  const hsize_t values = length(dataset), each = std::max<hsize_t>(1, H5Tget_size(type));
+  if (values > densest * H5Dget_storage_size(dataset) / each)
+    throw OutputError(path_.string() + " is damaged: it claims " + std::to_string(values) +
+                      " values, for which it is too short");
+  return values;
 }
 
 void Hdf5File::append(hid_t dataset, hid_t type, const void* elements, hsize_t n) const {
@@ -113,6 +133,7 @@ void Hdf5File::set_text(hid_t object, const std::string& name, const std::string
 std::string Hdf5File::text(hid_t object, const std::string& name) const {
   if (H5Aexists(object, name.c_str()) <= 0) return {};
   const Hdf5Handle attribute(H5Aopen(object, name.c_str(), H5P_DEFAULT), H5Aclose);
+  if (!is_single(attribute)) return {};
   const Hdf5Handle type(H5Aget_type(attribute), H5Tclose);
   std::vector<char> buffer(H5Tget_size(type) + 1, '\0');
   if (H5Tis_variable_str(type) > 0 || H5Aread(attribute, type, buffer.data()) < 0) return {};

@@ -67,6 +67,8 @@ class Hdf5File {
   /// Appends n elements of `type` at the end.
   void append(hid_t dataset, hid_t type, const void* elements, hsize_t n) const;
   hsize_t length(hid_t dataset) const;
+  /// The length for who makes room to read it all. Throws OutputError if the file has not the bytes for so many values.
+  hsize_t stored_length(hid_t dataset) const;
   /// Writes all that there is so far to the file's place.
   void flush() const;
   void set_text(hid_t object, const std::string& name, const std::string& text) const;

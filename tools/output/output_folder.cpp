@@ -182,8 +182,9 @@ fs::path OutputFolder::file(const fs::path& relative) const {
                       " has vanished; what the run wrote since is lost, so it ends here");
   const fs::path full = path_ / inside;
   make_folder(full.parent_path());
-  // A link inside the folder must not lead out of it.
-  const fs::path real = fs::canonical(full.parent_path());
+  // A link inside the folder must not lead out of it; one that leads nowhere would make its file there.
+  fs::path real = fs::canonical(full.parent_path());
+  if (fs::is_symlink(fs::symlink_status(full))) real = fs::exists(full) ? fs::canonical(full) : fs::path();
   const fs::path rest = real.lexically_relative(path_);
   if (rest.empty() || *rest.begin() == "..") {
     throw OutputError("refused to write " + full.string() + ": a link leads it out of the run's folder " +
@@ -198,7 +199,7 @@ void OutputFolder::write_text(const fs::path& relative, const std::string& text)
 
 void write_whole(const fs::path& file, const std::string& text) {
   const fs::path temporary = file.string() + ".part";
-  const int descriptor = open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  const int descriptor = open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, 0644);
   if (descriptor < 0) fail(file, "write", errno);
   std::size_t done = 0;
   int error = 0;

@@ -1,5 +1,6 @@
 #include "tools/output/replay_tables.hpp"
 
+#include <charconv>
 #include <cstddef>
 #include <sstream>
 
@@ -60,7 +61,7 @@ template <class Row>
 std::vector<Row> read(const Hdf5File& file, const char* name) {
   const Hdf5Handle stored(file.good(H5Dopen2(file.id(), name, H5P_DEFAULT), std::string("find /") + name + " in"),
                           H5Dclose);
-  std::vector<Row> rows(file.length(stored));
+  std::vector<Row> rows(file.stored_length(stored));
   const Hdf5Handle type = type_of(static_cast<const Row*>(nullptr));
   if (!rows.empty()) file.good(H5Dread(stored, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, rows.data()), "read");
   return rows;
@@ -95,7 +96,9 @@ ReplayTables read_replay_tables(const std::filesystem::path& events) {
   tables.rates = read<double>(file, "replay_rates");
   std::istringstream names(file.text(file.id(), "replay_scalars"));
   for (std::string name; std::getline(names, name);) tables.scalars.push_back(name);
-  tables.end = std::stod(file.text(file.id(), "replay_end"));
+  const std::string end = file.text(file.id(), "replay_end");
+  if (std::from_chars(end.data(), end.data() + end.size(), tables.end).ec != std::errc())
+    throw OutputError(events.string() + " is damaged: '" + end + "' is no moment at which a run ends");
   return tables;
 }
 

@@ -11,7 +11,7 @@ constexpr char format[] = "puffin-stats";
 constexpr hsize_t chunk = 1024;  // rows
 
 std::vector<double> read_column(const Hdf5File& file, hid_t dataset) {
-  std::vector<double> values(file.length(dataset));
+  std::vector<double> values(file.stored_length(dataset));
   if (!values.empty()) {
     file.good(H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), "read");
   }

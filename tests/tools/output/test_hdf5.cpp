@@ -177,6 +177,47 @@ TEST(Hdf5, AnotherFormatOrADamagedFileIsAnOutputError) {
   EXPECT_THROW(EventsFile("/proc/events.h5"), OutputError);
 }
 
+/// The file with another attribute of that name: `count` integers in place of what was there.
+void many_for_one(const std::filesystem::path& path, const char* name, hsize_t count) {
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  H5Adelete(file, name);
+  const hid_t space = H5Screate_simple(1, &count, nullptr);
+  const hid_t attribute = H5Acreate2(file, name, H5T_STD_I32LE, space, H5P_DEFAULT, H5P_DEFAULT);
+  const std::vector<int> values(count, 1);
+  H5Awrite(attribute, H5T_NATIVE_INT, values.data());
+  H5Aclose(attribute), H5Sclose(space), H5Fclose(file);
+}
+
+// HDF5 would write them all to the place of one.
+TEST(Hdf5, ManyValuesWhereOneBelongsAreDamage) {
+  for (const char* name : {"format_version", "format"}) {
+    const Scratch folder;
+    EventsFile(folder / "e.h5").append(std::vector<EventRecord>{event(1)});
+    many_for_one(folder / "e.h5", name, 8000);
+    EXPECT_THROW(read_events(folder / "e.h5"), OutputError) << name;
+  }
+}
+
+// A chunked data set may claim any length and have no byte of it: here 112 GB of contacts.
+TEST(Hdf5, NoMoreRoomIsMadeThanTheFileHasBytesFor) {
+  const Scratch folder;
+  EventsFile(folder / "e.h5").append(std::vector<EventRecord>{event(1)});
+  const hid_t file = H5Fopen((folder / "e.h5").c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  const hid_t dataset = H5Dopen2(file, "events", H5P_DEFAULT);
+  const hsize_t claimed = 1'000'000'000;
+  H5Dset_extent(dataset, &claimed);
+  H5Dclose(dataset), H5Fclose(file);
+  EXPECT_THROW(read_events(folder / "e.h5"), OutputError);
+}
+
+// As many as deflate packs at best: equal records, chunk after chunk.
+TEST(Hdf5, TheDensestFileOfOursIsRead) {
+  const Scratch folder;
+  const std::vector<EventRecord> equal(100'000);
+  EventsFile(folder / "e.h5").append(equal);
+  EXPECT_EQ(read_events(folder / "e.h5").size(), equal.size());
+}
+
 TEST(Hdf5, AFullDiskIsAnOutputError) {
   const Scratch folder;
   EventsFile file(folder / "events.h5");

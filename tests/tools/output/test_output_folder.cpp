@@ -124,6 +124,20 @@ TEST(OutputFolder, NothingIsWrittenOutside) {
   EXPECT_THROW(run.file("link/outside"), OutputError);
 }
 
+// The folder of a run that was got from elsewhere and is resumed: its tables are cut to a length, then appended to.
+TEST(OutputFolder, ALinkInPlaceOfAFileIsNotFollowedOut) {
+  const Scratch folder;
+  const OutputFolder out(folder / "run", "x", false);
+  write_whole(folder / "mine.txt", "mine");
+  fs::create_symlink(folder / "mine.txt", out.path() / "history.csv");
+  EXPECT_THROW(out.file("history.csv"), OutputError);
+  fs::create_symlink(folder / "nowhere.txt", out.path() / "log.txt");
+  EXPECT_THROW(out.file("log.txt"), OutputError);
+  write_whole(out.path() / "within.txt", "");
+  fs::create_symlink("within.txt", out.path() / "link.txt");
+  EXPECT_NO_THROW(out.file("link.txt"));
+}
+
 TEST(OutputFolder, AFolderThatCannotBeMadeIsAnOutputErrorWithARemedy) {
   EXPECT_NE(refusal("/proc/puffin/run", false).find("--out"), std::string::npos);
 }
