@@ -153,6 +153,7 @@ std::vector<double> CsvTable::numbers(const std::string& column) const {
 }
 
 CsvTable read_csv(const std::filesystem::path& file) {
+  demand_regular(file);
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw OutputError("cannot read " + file.string() + ": " + std::strerror(errno));
   CsvTable table;

@@ -40,6 +40,7 @@ Hdf5File::Hdf5File(const std::filesystem::path& path, const std::string& format)
 }
 
 Hdf5File Hdf5File::reading(const std::filesystem::path& path, const std::string& format) {
+  demand_regular(path);
   const Hdf5Quiet quiet;
   Hdf5File file;
   file.path_ = path;

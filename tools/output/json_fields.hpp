@@ -67,9 +67,7 @@ inline std::vector<double> numbers(const Json& list) {
 
 /// Throws OutputError if the file is missing, holds no object, or is of another format.
 inline Json read_json(const std::filesystem::path& file) {
-  std::error_code error;
-  if (std::filesystem::exists(file, error) && !std::filesystem::is_regular_file(file, error))
-    throw OutputError(file.string() + " is no regular file, so it may never end");
+  demand_regular(file);
   std::ifstream stream(file);
   if (!stream) throw OutputError("cannot read " + file.string() + "; is this the folder of a run?");
   Json json = Json::parse(stream, nullptr, false);

@@ -48,6 +48,7 @@ class VtkQuiet {
 template <class Reader>
 vtkSmartPointer<Reader> read_xml(const std::filesystem::path& file) {
   if (!std::filesystem::exists(file)) throw OutputError("cannot read " + file.string() + ": there is no such file");
+  demand_regular(file);
   VtkQuiet quiet;
   auto reader = vtkSmartPointer<Reader>::New();
   reader->SetFileName(file.c_str());

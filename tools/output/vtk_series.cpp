@@ -36,6 +36,7 @@ std::string attribute(const std::string& tag, const std::string& name) {
 }  // namespace
 
 std::vector<SeriesEntry> read_pvd(const fs::path& file) {
+  demand_regular(file);
   std::ifstream stream(file);
   if (!stream) throw OutputError("cannot read " + file.string() + "; has this run written such output?");
   std::stringstream buffer;

@@ -1,11 +1,14 @@
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <bit>
 #include <numbers>
 
 #include "tests/tools/output/scratch.hpp"
+#include "tools/output/events_file.hpp"
 #include "tools/output/output_error.hpp"
 #include "tools/output/tables.hpp"
+#include "tools/output/vtk_series.hpp"
 
 namespace puffin::output {
 namespace {
@@ -135,6 +138,17 @@ TEST(Csv, AFullDiskIsAnOutputError) {
         file.flush();
       },
       OutputError);
+}
+
+// A pipe without a writer: who opens it waits for ever.
+TEST(Readers, NoneOfARunsFilesIsWaitedFor) {
+  const Scratch folder;
+  const auto pipe = folder / "pipe";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_THROW(read_csv(pipe), OutputError);
+  EXPECT_THROW(read_pvd(pipe), OutputError);
+  EXPECT_THROW(read_field_frame(pipe), OutputError);
+  EXPECT_THROW(read_events(pipe), OutputError);
 }
 
 TEST(Csv, AWrongNumberOfCellsIsRefused) {
