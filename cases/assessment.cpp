@@ -38,8 +38,8 @@ double perimeter_of(const Surface& s, const std::string& patch) {
 /// Bytes of a cell: its slots (1.23 a cell in a device: ghosts) with 19 populations and what each scalar of each
 /// mechanism keeps; the rest is what was measured beside that in the flow through an L-bend, set-up included.
 double bytes_a_cell(const Case& c) {
-  const double populations = 19.0 * (c.numerics.precision == Precision::float64 ? 8.0 : 4.0);
-  const double scalars = c.fines ? 3.0 * 28.0 * static_cast<double>(c.fines->scalars.size()) : 0.0;
+  const double real = c.numerics.precision == Precision::float64 ? 8.0 : 4.0, populations = 19.0 * real;
+  const double scalars = c.fines ? 3.0 * (16.0 + 3.0 * real) * static_cast<double>(c.fines->scalars.size()) : 0.0;
   return 1.23 * (populations + scalars) + 225.0;
 }
 
@@ -56,7 +56,8 @@ double output_of(const Case& c, const Assessment& a, const Surface& s) {
 
 /// Nine runs of devices took 0.93 to 1.5 times as much; `puffin estimate` is nearer.
 double memory_of(const Case& c, const Assessment& a, const Surface& s) {
-  constexpr double program = 75e6, triangle = 400.0, parcel = 25e3;  // a parcel: lists, stencils, contacts not yet written
+  constexpr double program = 75e6, triangle = 400.0,
+                   parcel = 25e3;  // a parcel: lists, stencils, contacts not yet written
   const double parcels = c.carriers ? static_cast<double>(c.carriers->count) / c.carriers->parcel : 0.0;
   return program + triangle * static_cast<double>(s.mesh.triangles.size()) + parcel * parcels +
          bytes_a_cell(c) * static_cast<double>(a.cells_fluid) + output_of(c, a, s);

@@ -77,21 +77,18 @@ double steps_diffusion_follows(const lbm::ScalarOptions& options) {
   return diffusivity > 0.0 ? std::max(1.0, 0.5 / diffusivity) : std::numeric_limits<double>::infinity();
 }
 
-double steps_per_update(const lbm::StepsAllowed& allowed, std::int64_t exchange) {
+double steps_per_update(const lbm::StepsAllowed& allowed, double followed, std::int64_t exchange) {
   constexpr double most = 64.0;
   const auto e = static_cast<double>(exchange);
   const double longest = std::clamp(std::floor(allowed.single), 1.0, most);
-  const auto cost = [&](double steps) {
-    const auto pieces = [steps](double longest_piece) { return std::ceil(steps / longest_piece * (1.0 - 1e-12)); };
-    return (2.5 + std::min(3.5 * pieces(allowed.single), 5.5 * pieces(allowed.pair))) / steps;
-  };
+  const auto cost = [&](double steps) { return (2.5 + lbm::cost_in_sweeps(lbm::pieces_of(steps, allowed))) / steps; };
   double best = std::max(longest, e), least = cost(std::max(1.0, std::floor(longest / e)) * e);
   for (const double steps : {2.0 * e, 3.0 * e})
     if (steps > longest && steps <= most && cost(steps) < least * (1.0 - 1e-12)) {
       best = steps;
       least = cost(steps);
     }
-  return best;
+  return std::min(best, std::max(e, std::floor(followed)));
 }
 
 void carry_fines(const Models& models, bool now, State& s) {
@@ -120,11 +117,11 @@ void carry_fines(const Models& models, bool now, State& s) {
     }
   }
   try {
-    lbm::StepsAllowed allowed = lbm::advance_scalars(s.air->rows, s.fluxes, static_cast<double>(s.steps_since_scalars),
-                                                     options, s.scalars, s.budget);
-    const double followed = steps_diffusion_follows(options);
-    allowed = {std::min(allowed.single, followed), std::min(allowed.pair, 2.0 * followed)};
-    s.steps_per_scalar_update = models.transport_steps ? steps_per_update(allowed, models.steps_per_exchange) : 1.0;
+    const lbm::StepsAllowed allowed = lbm::advance_scalars(
+        s.air->rows, s.fluxes, static_cast<double>(s.steps_since_scalars), options, s.scalars, s.budget);
+    s.steps_per_scalar_update =
+        models.transport_steps ? steps_per_update(allowed, steps_diffusion_follows(options), models.steps_per_exchange)
+                               : 1.0;
   } catch (const std::runtime_error& e) {
     const Draught worst = strongest_draught(s.air->rows, s.fluxes);
     diverge("%s (t = %.6g s): the cell at [%.5g, %.5g, %.5g] m passes %.3g of its air through one face in a step",

@@ -202,13 +202,15 @@ StepsAllowed advance(const Rows& rows, const FaceFluxes& fluxes, double steps, c
     // Drift and diffusion balance each other: both in the sweeps, or both in the lines.
     if (!fluxes.drift[0].empty() && p.any_implicit) p.implicit.assign(fields.scalars(), true);
     const std::vector<Stroke> sweeps = strokes(cut, p.steps, fields.reversed);
+    const double taken_before = cut.middle ? 0.5 * p.steps : 0.0;
+    take_at_walls(fluxes, taken_before, moving, fields, budget);
     for (std::size_t first = 0; first == 0 || first < moving.size(); first += scalars_together) {
       const auto begin = moving.begin() + static_cast<std::ptrdiff_t>(first);
       const std::vector<int> group(
           begin, begin + static_cast<std::ptrdiff_t>(std::min(scalars_together, moving.size() - first)));
       advance_group(Update<Real>{rows, fluxes, options, resting, group, fields, budget}, kernel, elapsed, p, sweeps);
     }
-    take_at_walls(fluxes, p.steps, moving, fields, budget);
+    take_at_walls(fluxes, p.steps - taken_before, moving, fields, budget);
     fields.reversed = fields.reversed != !cut.middle;  // a pair is its own mirror image
     ++budget.sub_steps;
     for (std::size_t r = 0; r < rows.runs().size(); ++r)

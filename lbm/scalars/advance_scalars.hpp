@@ -33,7 +33,7 @@ double max_steps(const Rows& rows, const FaceFluxes& fluxes, double cfl);
 /// part of the sweeps, explicit; where it would cost more than half again as many sub-steps it becomes implicit line by
 /// line (diffuse_lines.hpp). Nothing is done while every scalar is empty. Same bits for any number of threads. Throws
 /// std::invalid_argument if sizes, fluxes or options are inconsistent, std::runtime_error if the fluxes would empty a
-/// cell. Returns what these fluxes allow, which is found on the way.
+/// cell. Returns what these fluxes and the diffusion of what moves allow, which is found on the way.
 StepsAllowed advance_scalars(const Rows& rows, const FaceFluxes& fluxes, double steps, const ScalarOptions& options,
                              ScalarFields& fields, ScalarBudget& budget);
 

@@ -55,8 +55,8 @@ struct ScalarBudget {
   std::vector<std::vector<CompensatedSum>> left, entered;  // [scalar][patch], both >= 0
   std::vector<std::vector<double>> absorbed_at;            // [scalar][slot] taken by the closed faces of a cell
   double air_mismatch = 0.0;   // largest |carried air - the lattice's density| / density seen at the start of an update
-  std::int64_t sub_steps = 0;  // sub-steps done
-  std::int64_t cells_computed = 0, cells_skipped = 0;  // cells x sub-steps
+  std::int64_t sub_steps = 0;  // sub-steps and pairs done
+  std::int64_t cells_computed = 0, cells_skipped = 0;  // cells x sub-steps and pairs
 };
 double absorbed(const ScalarBudget& budget, int scalar);
 /// left - entered over all patches, plus absorbed.

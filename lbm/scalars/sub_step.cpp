@@ -19,7 +19,7 @@ double explicit_steps(const ScalarLaw& law, double diffusivity, double rate, dou
   return 2.0 / (p + std::sqrt(std::max(p * p - 4.0 * rate * rate, 0.0)));
 }
 
-/// The direction in which least flows out of a cell.
+/// The direction that allows the longest pairs around it.
 int middle_of_pairs(const StepLimit& whole) {
   return static_cast<int>(std::max_element(whole.pair.begin(), whole.pair.end()) - whole.pair.begin());
 }
@@ -47,12 +47,19 @@ StepsAllowed allowed_steps(const StepLimit& whole, const ScalarOptions& options,
   return allowed;
 }
 
+double cost_in_sweeps(const Pieces& pieces) { return (pieces.pairs ? 5.5 : 3.5) * pieces.count; }
+
+Pieces pieces_of(double steps, const StepsAllowed& allowed) {
+  const auto count = [steps](double longest) { return std::max(1.0, std::ceil(steps / longest * (1.0 - 1e-12))); };
+  const Pieces singles{count(allowed.single), false}, pairs{count(allowed.pair), true};
+  return cost_in_sweeps(pairs) < cost_in_sweeps(singles) ? pairs : singles;
+}
+
 Cut cut_update(double steps, const StepLimit& whole, const StepsAllowed& allowed) {
-  const auto pieces = [steps](double longest) { return std::max(1.0, std::ceil(steps / longest * (1.0 - 1e-12))); };
-  const double singles = pieces(allowed.single);
-  const double pairs = pieces(allowed.pair);
-  if (5.0 * pairs < 3.0 * singles) return {middle_of_pairs(whole), steps / pairs};
-  return {std::nullopt, steps / singles};
+  const Pieces pieces = pieces_of(steps, allowed);
+  Cut cut{std::nullopt, steps / pieces.count};
+  if (pieces.pairs) cut.middle = middle_of_pairs(whole);
+  return cut;
 }
 
 std::vector<Stroke> strokes(const Cut& cut, double steps, bool reversed) {

@@ -17,8 +17,9 @@ struct Stroke {
 };
 
 /// How an update is cut up, found from the whole flow so that what happens to a scalar does not depend on where others
-/// are: one sub-step after the other, or pairs of them, mirrored, whose two sweeps in the middle are one. A pair does
-/// with five sweeps what takes six; it is symmetric, so of second order in time by itself (Strang 1968).
+/// are, only on which move: one sub-step after the other, or pairs of them, mirrored, whose two sweeps in the middle
+/// are one. A pair does with five sweeps what takes six; it is symmetric, so of second order in time by itself (Strang
+/// 1968), with half of what drifts into walls taken before it and half after.
 struct Cut {
   std::optional<int> middle;  // direction of the sweep in the middle of a pair; none: no pairs
   double share = 0.0;         // air steps of a sub-step, or of a pair
@@ -38,7 +39,17 @@ double largest_eddy(const FaceFluxes& fluxes);
 StepsAllowed allowed_steps(const StepLimit& whole, const ScalarOptions& options, const std::vector<int>& moving,
                            double eddy);
 
-/// Pairs of `allowed.pair` around the direction that allows most, where fewer sweeps do the `steps` then.
+/// So many sub-steps, or so many pairs of them.
+struct Pieces {
+  double count = 1.0;
+  bool pairs = false;
+};
+/// The cheaper ones for `steps`, by cost_in_sweeps.
+Pieces pieces_of(double steps, const StepsAllowed& allowed);
+/// Three a sub-step or five a pair, and half a sweep to prepare each.
+double cost_in_sweeps(const Pieces& pieces);
+
+/// Pairs go around the direction that allows most.
 Cut cut_update(double steps, const StepLimit& whole, const StepsAllowed& allowed);
 
 /// The sweeps of a sub-step or of a pair. reversed: z y x.

@@ -13,29 +13,37 @@ namespace {
 constexpr double endless = std::numeric_limits<double>::infinity(), no_pair = 0.01;
 
 TEST(StepsPerUpdate, OneSubStepWhereAnExchangeFits) {
-  EXPECT_EQ(steps_per_update({14.9, no_pair}, 5), 14.0);  // rounded down to exchanges by carry_fines
-  EXPECT_EQ(steps_per_update({1.3, no_pair}, 64), 64.0);
+  EXPECT_EQ(steps_per_update({14.9, no_pair}, endless, 5), 14.0);  // rounded down to exchanges by carry_fines
 }
 
 // Sweeps an air step: (2.5 + 3.5 n)/steps with n sub-steps. 5.2 allowed: 6/5, 9.5/10, 13/15; 3.6: 9.5/5, 13/10,
 // 20/15; 4.9: 9.5/5, 13/10, 16.5/15.
 TEST(StepsPerUpdate, OtherwiseTheFewestSweepsAnAirStep) {
-  EXPECT_EQ(steps_per_update({5.2, no_pair}, 5), 15.0);
-  EXPECT_EQ(steps_per_update({3.6, no_pair}, 5), 10.0);
-  EXPECT_EQ(steps_per_update({4.9, no_pair}, 5), 15.0);
+  EXPECT_EQ(steps_per_update({5.2, no_pair}, endless, 5), 15.0);
+  EXPECT_EQ(steps_per_update({3.6, no_pair}, endless, 5), 10.0);
+  EXPECT_EQ(steps_per_update({4.9, no_pair}, endless, 5), 15.0);
 }
 
 // (2.5 + 5.5 n)/steps with n pairs: 8/10, 13.5/15 where a pair holds two exchanges, 8/15 where it holds three.
 TEST(StepsPerUpdate, PairsWhereTheySave) {
-  EXPECT_EQ(steps_per_update({5.2, 10.4}, 5), 10.0);
-  EXPECT_EQ(steps_per_update({5.2, 15.0}, 5), 15.0);
+  EXPECT_EQ(steps_per_update({5.2, 10.4}, endless, 5), 10.0);
+  EXPECT_EQ(steps_per_update({5.2, 15.0}, endless, 5), 15.0);
+}
+
+// A flow that allows 60 in one sub-step; diffusion is followed over 7, or not even over one exchange.
+TEST(StepsPerUpdate, NoLongerThanDiffusionFollows) {
+  EXPECT_EQ(steps_per_update({60.0, 10.0}, 7.1, 5), 7.0);
+  EXPECT_EQ(steps_per_update({60.0, 10.0}, 2.5, 5), 5.0);
+  EXPECT_EQ(steps_per_update({5.2, 10.4}, 7.1, 5), 7.0);
 }
 
 TEST(StepsPerUpdate, StaysWithin64StepsAndThreeExchanges) {
-  EXPECT_EQ(steps_per_update({endless, endless}, 5), 64.0);
+  EXPECT_EQ(steps_per_update({1.3, no_pair}, endless, 64), 64.0);
+  EXPECT_EQ(steps_per_update({endless, 10.0}, endless, 5), 64.0);
+  EXPECT_EQ(steps_per_update({endless, endless}, endless, 5), 64.0);
   for (double allowed = 0.05; allowed < 80.0; allowed *= 1.07)
     for (const int exchange : {1, 2, 5, 8, 33, 64}) {
-      const double steps = steps_per_update({allowed, 1.7 * allowed}, exchange);
+      const double steps = steps_per_update({allowed, 1.7 * allowed}, endless, exchange);
       EXPECT_GE(steps, 1.0);
       EXPECT_LE(steps, 64.0);
       if (allowed < exchange) {

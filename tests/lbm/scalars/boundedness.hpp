@@ -8,6 +8,7 @@
 #include <iostream>
 #include <vector>
 
+#include "lbm/scalars/sub_step.hpp"
 #include "tests/lbm/scalars/scene.hpp"
 
 namespace puffin::lbm {
@@ -34,13 +35,15 @@ inline void stay_bounded(int updates) {
     ScalarOptions o{{{scheme, 0.1 / 1e4}}};
     o.single = single;
     double least = 0.0, most = 1.0;
+    int in_pairs = 0;
     for (int n = 0; n < updates; ++n) {
       // Every now and then a fresh spike, as a source would make it.
       const std::ptrdiff_t spike = s.at(n % 5, n % 11, n % 8);
       const double held = f.amount[0][spike];
       if (n % 50 == 0) f.amount[0][spike] = n % 100 ? 0.0 : 1.0;
       const double given = f.amount[0][spike] - held;
-      advance_scalars(s.rows, flows[n * 7 % 16], 2.0 + 6.0 * std::abs(noise(1, n, 0, 0, 0)), o, f, b);
+      const double steps = 2.0 + 6.0 * std::abs(noise(1, n, 0, 0, 0));
+      in_pairs += pieces_of(steps, advance_scalars(s.rows, flows[n * 7 % 16], steps, o, f, b)).pairs;
       b.left[0][0].add(-given);  // the ledger of the test
       for (const auto& run : s.rows.runs())
         for (int i = 0; i < run.count; ++i) {
@@ -53,6 +56,8 @@ inline void stay_bounded(int updates) {
     EXPECT_GE(least, -1e-13);
     EXPECT_LE(most, 1.0 + (single ? 1e-5 : 1e-12));
     EXPECT_NEAR((total(f, 0) + gone(b, 0)) / start, 1.0, 1e-12);
+    EXPECT_GT(in_pairs, updates / 4);
+    EXPECT_LT(in_pairs, updates * 3 / 4);
     std::cout << updates << " updates, " << b.sub_steps << " sub-steps or pairs: from " << least << " to 1 + "
               << most - 1.0 << ", ledger " << (total(f, 0) + gone(b, 0)) / start - 1.0 << '\n';
   }
