@@ -3,6 +3,7 @@
 // a ramp, carriers that hit walls and each other, stick and slide, fines in the air, two sets of scalars.
 
 #include <memory>
+#include <vector>
 
 #include "cases/build.hpp"
 #include "cases/read_case.hpp"
@@ -66,8 +67,8 @@ wall = "absorb"
 time = "2 ms"
 )toml";
 
-inline std::unique_ptr<cases::Simulation> coupled_simulation() {
-  return cases::build(cases::parse_case(coupled_scene, PUFFIN_SOURCE_DIR "/cases/coupled.toml"));
+inline std::unique_ptr<cases::Simulation> coupled_simulation(const std::vector<cases::Override>& changed = {}) {
+  return cases::build(cases::parse_case(coupled_scene, PUFFIN_SOURCE_DIR "/cases/coupled.toml", changed));
 }
 
 }  // namespace puffin::coupling

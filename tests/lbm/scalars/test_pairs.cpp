@@ -29,21 +29,6 @@ TEST(Pairs, in_a_uniform_flow_the_slowest_direction_takes_both_steps_at_once) {
   EXPECT_NEAR(limit.pair[2], 10.0, 1e-12);
 }
 
-TEST(Pairs, mind_the_air_that_earlier_sweeps_took) {
-  // The jet of StepLimit.minds_the_air_that_earlier_sweeps_took, n steps for each half. Around z, the cells that feed
-  // it lose most: 2n 0.2 <= cfl. Around x, of which the middle cell loses 2n 0.2: y has taken 0.2 n before, z has
-  // brought 0.4 n: 2n 0.2 <= cfl (1 + 0.2 n).
-  Scene s = make_scene({3, 3, 3}, {false, false, false});
-  s.fluxes.mass[0][s.at(1, 1, 1)] = 0.1;
-  s.fluxes.mass[0][s.at(0, 1, 1)] = -0.1;
-  s.fluxes.mass[1][s.at(1, 1, 1)] = 0.1;
-  s.fluxes.mass[1][s.at(1, 0, 1)] = -0.1;
-  s.fluxes.mass[2][s.at(1, 1, 0)] = 0.2;
-  s.fluxes.mass[2][s.at(1, 1, 1)] = -0.2;
-  EXPECT_NEAR(limit_of(s, 0.3).pair[2], 2.0 * 0.3 / 0.4, 1e-12);
-  EXPECT_NEAR(limit_of(s, 0.3).pair[0], 2.0 * 0.3 / 0.34, 1e-12);
-}
-
 TEST(Pairs, are_taken_where_they_save_sweeps) {
   StepLimit flow{5.0, {5.0, 6.0, 10.0}, 1.0};
   const StepsAllowed allowed = allowed_steps(flow, {{{}}}, {0}, 0.0);
