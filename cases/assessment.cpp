@@ -54,7 +54,8 @@ double output_of(const Case& c, const Assessment& a, const Surface& s) {
   return most * cells_in_box(s, a.lattice->dx);
 }
 
-/// Nine runs of devices took 0.93 to 1.5 times as much; `puffin estimate` is nearer.
+/// Nine runs of devices took 0.93 to 1.5 times as much (docs/results/reliability/memory-said.csv); `puffin estimate` is
+/// nearer.
 double memory_of(const Case& c, const Assessment& a, const Surface& s) {
   constexpr double program = 75e6, triangle = 400.0,
                    parcel = 25e3;  // a parcel: lists, stencils, contacts not yet written

@@ -29,7 +29,8 @@ output::OutputError damaged(const std::filesystem::path& file, const char* what)
   return output::OutputError(file.string() + " is damaged: " + what + " out of range");
 }
 
-/// Refuses what no run writes: another carrier than the run had, a value that is no number, a negative speed or dose.
+/// Refuses what would end the program or pass for a result: another carrier than the run had, a value that is no
+/// number, a negative speed or dose of a carrier. Not every number that no run writes.
 void demand_sound(const std::filesystem::path& file, const coupling::FinesRecord& r) {
   const auto demand = [&](bool holds, const char* what) {
     if (!holds) throw damaged(file, what);

@@ -104,14 +104,14 @@ double turned_hill_error(double part, std::int64_t& sub_steps) {
 }
 
 TEST(Pairs, turn_a_hill_as_well_as_single_sub_steps) {
-  // Nearly equal half steps; in the middle one sweep carries as far as two do. 2 %: as much as the errors of limited
-  // slopes differ by when the order of the sweeps is turned around.
+  // Nearly equal half steps. Each sweep flattens the hill by what its limited slopes miss, and pairs make five where
+  // single sub-steps make six, the middle one nearer to a whole cell: they must not be worse.
   std::int64_t singles = 0, pairs = 0;
   const double by_singles = turned_hill_error(0.99, singles), by_pairs = turned_hill_error(1.98, pairs);
   std::cout << "L2 errors: " << by_singles << " with " << singles << " sub-steps, " << by_pairs << " with " << pairs
             << " pairs\n";
   EXPECT_LE(std::abs(2 * pairs - singles), 2);
-  EXPECT_LT(by_pairs, 1.02 * by_singles);
+  EXPECT_LT(by_pairs, by_singles);
   EXPECT_GT(by_singles, 0.05);  // there is an error to compare
 }
 
