@@ -135,11 +135,16 @@ class ApplyLinks {
   void late_walls(int chunk, int begin) const {
     walls(schedule_.waiting_runs.late(chunk, begin), schedule_.waiting_groups.late(chunk, begin));
   }
-  /// Returns the cells with back-flow.
-  std::int64_t openings(int chunk) const {
+  /// Inlets, and what the cells before outlets hold; before the walls of the chunk.
+  void inlets(int chunk, std::vector<OutletAir>& state) const {
     const auto &in = schedule_.inlets, &out = schedule_.outlets;
     apply_inlets(air_, drive_, walls_.parity, in[chunk], in[chunk + 1], p_);
-    return apply_outlets(air_, drive_, walls_.parity, out[chunk], out[chunk + 1], p_);
+    find_outlet_air(air_, walls_.parity, out[chunk], out[chunk + 1], p_, state);
+  }
+  /// When the cells beside are collided too. Returns the cells with back-flow.
+  std::int64_t outlets(int chunk, const std::vector<OutletAir>& state) const {
+    const auto& out = schedule_.outlets;
+    return apply_outlets(air_, drive_, state, walls_.parity, out[chunk], out[chunk + 1], p_);
   }
 
  private:
@@ -205,12 +210,16 @@ void apply_links(const Drive& drive, Air& air) {
       [&]<class T>(Populations<T>& p) {
         const Parity last = p.next;
         cross_periodic_faces(air.links, last, p);
-        // A link writes a place of its own cell alone, and none that another link reads. But an outlet reads the
-        // population at rest, to which a wall gives the cell's imbalance: openings come first.
+        // A link writes a place of its own cell alone, and none that another link reads. But outlets take account of
+        // the population at rest, to which a wall gives the cell's imbalance: what they need is read first.
         const ApplyLinks<T> apply(drive, air, p);
         std::vector<std::int64_t> backflow(air.rows.chunks().size(), 0);
-        for_each_chunk(air.rows, [&](int c, const Chunk&) { backflow[c] = apply.openings(c); });
-        for_each_chunk(air.rows, [&](int c, const Chunk&) { apply.ready_walls(c, -1); });
+        std::vector<OutletAir> state(air.links.outlets.size());
+        for_each_chunk(air.rows, [&](int c, const Chunk&) { apply.inlets(c, state); });
+        for_each_chunk(air.rows, [&](int c, const Chunk&) {
+          apply.ready_walls(c, -1);
+          backflow[c] = apply.outlets(c, state);
+        });
         for (const std::int64_t cells : backflow) air.backflow += cells;
         end_step(last, p, air);
       },
@@ -226,6 +235,7 @@ KernelReport advance_air(const CollisionConstants& constants, const Drive& drive
   const int chunks = static_cast<int>(air.rows.chunks().size());
   std::vector<KernelReport> reports(chunks);
   std::vector<std::int64_t> backflow(chunks, 0);
+  std::vector<OutletAir> state(air.links.outlets.size());
   std::vector<int> begin_of(chunks);  // the first chunk that was collided in one go before it
   std::visit(
       [&]<class T>(Populations<T>& p) {
@@ -234,12 +244,15 @@ KernelReport advance_air(const CollisionConstants& constants, const Drive& drive
         const ApplyLinks<T> apply(drive, air, p);
         for_each_in_parts(chunks, [&](int c, int begin) {
           reports[c] = collide(air.rows.chunks()[c]);
-          backflow[c] = apply.openings(c);  // before the walls, as in apply_links
+          apply.inlets(c, state);  // before the walls, as in apply_links
           begin_of[c] = begin;
           apply.ready_walls(c, begin);
         });
         cross_periodic_faces(air.links, last, p);
-        for_each_in_parts(chunks, [&](int c, int) { apply.late_walls(c, begin_of[c]); });
+        for_each_in_parts(chunks, [&](int c, int) {
+          apply.late_walls(c, begin_of[c]);
+          backflow[c] = apply.outlets(c, state);
+        });
         end_step(last, p, air);
       },
       air.populations);

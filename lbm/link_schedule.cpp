@@ -4,6 +4,7 @@
 #include <bit>
 #include <tuple>
 
+#include "lbm/openings.hpp"
 #include "lbm/populations.hpp"
 
 namespace puffin::lbm {
@@ -175,6 +176,7 @@ LinkSchedule schedule_links(const Rows& rows, const Links& links) {
   const auto chunk_of_link = [&](const OpeningLink& link) { return chunk[link.run]; };
   schedule.inlets = first_of_chunks(links.inlets, chunks, chunk_of_link);
   schedule.outlets = first_of_chunks(links.outlets, chunks, chunk_of_link);
+  schedule.outlet_sources = find_outlet_sources(rows, links.outlets);
   return schedule;
 }
 

@@ -4,10 +4,10 @@
 // A sweep goes through the chunks of cells in order. The links of a cell need what this cell, and for a wall near it
 // the cell behind, have sent out; so they can be applied as soon as the chunks of both are collided, long before the
 // whole sweep is. A second pass over the cells at walls, with its wait for memory, is saved. Wall cells that have no
-// row of their like are gathered into groups. The order changes no bit as long
-// as the openings of a cell come before its walls: an outlet reads the population at rest, which takes the imbalance of
-// the walls. All else that a link writes is a place of its own, read by no other link and no collision of the same
-// step.
+// row of their like are gathered into groups. Outlets also need the cells beside their own, and come when all are
+// collided. The order changes no bit as long as what an outlet needs of a cell is read before its walls: it takes
+// account of the population at rest, which takes the imbalance of the walls. All else that a link writes is a place of
+// its own, read by no other link and no collision of the same step.
 
 #include <cstdint>
 #include <vector>
@@ -33,6 +33,15 @@ struct Waiting {
   Range late(int chunk, int begin) const { return {ready(chunk, begin).end, first[chunk + 1]}; }
 };
 
+/// Where what comes back along an outlet link is read.
+struct OutletSource {
+  /// Number of a link of the neighbour beside the link's own cell, one step on along the outlet as the link goes, where
+  /// that is a cell before the outlet too; else of the own cell.
+  std::int32_t beside = 0;
+  /// The cell behind the own one, away from the outlet, and its run; -1 where there is none.
+  std::int32_t run_behind = -1;
+  std::ptrdiff_t behind = -1;
+};
 struct LinkSchedule {
   std::vector<WallRun> runs;  // long ones, with the coefficients of Links
   Waiting waiting_runs;
@@ -41,6 +50,7 @@ struct LinkSchedule {
   std::vector<std::int32_t> places;              // of the cells of groups: see WallGroup
   std::vector<float> partner, moving, returned;  // of the cells of groups, as those of Links
   std::vector<std::size_t> inlets, outlets;      // per chunk, and one more: first link
+  std::vector<OutletSource> outlet_sources;      // per outlet link
 };
 
 LinkSchedule schedule_links(const Rows& rows, const Links& links);

@@ -1,8 +1,10 @@
 #include "lbm/openings.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 
 namespace puffin::lbm {
 
@@ -40,39 +42,114 @@ void apply_inlets(const Air& air, const Drive& drive, Parity last, std::size_t f
   }
 }
 
+std::vector<OutletSource> find_outlet_sources(const Rows& rows, const std::vector<OpeningLink>& outlets) {
+  std::map<int, std::array<std::size_t, 7>> faces;  // per patch: faces of cells that an outlet closes, per direction
+  for (const OpeningLink& link : outlets)
+    if (link.direction <= 6) ++faces[link.patch][link.direction];
+  const auto link_of = [&](std::ptrdiff_t slot) {
+    const auto at = std::lower_bound(outlets.begin(), outlets.end(), slot,
+                                     [](const OpeningLink& link, std::ptrdiff_t s) { return link.slot < s; });
+    return at != outlets.end() && at->slot == slot ? static_cast<std::int32_t>(at - outlets.begin()) : -1;
+  };
+  const auto run_of = [&](std::ptrdiff_t slot) {
+    const auto& runs = rows.runs();
+    const auto next = std::upper_bound(runs.begin(), runs.end(), slot,
+                                       [](std::ptrdiff_t s, const Run& run) { return s < run.first; });
+    return static_cast<std::int32_t>(next - runs.begin()) - 1;
+  };
+  std::vector<OutletSource> sources;
+  for (const OpeningLink& link : outlets) {
+    const auto& of_patch = faces[link.patch];
+    const auto out = d3q19::velocity[std::max_element(of_patch.begin() + 1, of_patch.end()) - of_patch.begin()];
+    auto beside = rows.cell(link.slot), behind = beside;
+    for (int d = 0; d < 3; ++d) {
+      if (out[d] == 0) beside[d] += d3q19::velocity[link.direction][d];
+      behind[d] -= out[d];
+    }
+    const std::ptrdiff_t next = rows.active_slot(beside[0], beside[1], beside[2]);
+    const std::int32_t there = next < 0 ? -1 : link_of(next);
+    OutletSource source;
+    source.beside = there < 0 ? link_of(link.slot) : there;
+    source.behind = rows.active_slot(behind[0], behind[1], behind[2]);
+    if (source.behind >= 0) source.run_behind = run_of(source.behind);
+    sources.push_back(source);
+  }
+  return sources;
+}
+
 template <class T>
-std::int64_t apply_outlets(const Air& air, const Drive& drive, Parity last, std::size_t first, std::size_t end,
-                           Populations<T>& p) {
-  std::int64_t cut = 0;
+void find_outlet_air(const Air& air, Parity last, std::size_t first, std::size_t end, const Populations<T>& p,
+                     std::vector<OutletAir>& state) {
   const auto& list = air.links.outlets;
-  const double lowest = lowest_outlet(air, drive);
-  for (std::size_t k = first; k < end;) {
-    const std::ptrdiff_t slot = list[k].slot;
+  for (std::size_t k = first; k < end; ++k) {
+    if (k > first && list[k].slot == list[k - 1].slot) continue;
     const Run& run = air.rows.runs()[list[k].run];
     double drho = 0.0;
     Vec3 j = Vec3::Zero();
     for (int i = 0; i < d3q19::q; ++i) {
-      const double f = p.departed(run, slot, i, last);
+      const double f = p.departed(run, list[k].slot, i, last);
       const auto& c = d3q19::velocity[i];
       drho += f;
       j += f * Vec3(c[0], c[1], c[2]);
     }
-    Vec3 u = j / (1.0 + drho);
+    state[k] = {drho, j / (1.0 + drho)};
+  }
+}
+
+namespace {
+
+/// Momentum that left a cell in the last step; the population at rest has none, and walls may be at work on it.
+template <class T>
+Vec3 momentum_of(const Air& air, const OutletSource& cell, Parity last, const Populations<T>& p) {
+  const Run& run = air.rows.runs()[cell.run_behind];
+  Vec3 j = Vec3::Zero();
+  for (int i = 1; i < d3q19::q; ++i) {
+    const auto& c = d3q19::velocity[i];
+    j += static_cast<double>(p.departed(run, cell.behind, i, last)) * Vec3(c[0], c[1], c[2]);
+  }
+  return j;
+}
+
+}  // namespace
+
+template <class T>
+std::int64_t apply_outlets(const Air& air, const Drive& drive, const std::vector<OutletAir>& state, Parity last,
+                           std::size_t first, std::size_t end, Populations<T>& p) {
+  std::int64_t cut = 0;
+  const auto& list = air.links.outlets;
+  const std::vector<OutletSource>& sources = air.links.schedule->outlet_sources;
+  const double lowest = lowest_outlet(air, drive);
+  for (std::size_t k = first; k < end;) {
+    const std::ptrdiff_t slot = list[k].slot;
+    const Run& run = air.rows.runs()[list[k].run];
+    const double outside = drive.density_excess[list[k].patch];
+    Vec3 u = state[k].velocity;
+    const bool leaves = u.dot(air.normal[list[k].patch]) >= 0.0;
     const double head = 1.5 * u.squaredNorm();  // its dynamic pressure, as an excess of density
-    if (head > 0.0 && u.dot(air.normal[list[k].patch]) < 0.0) {
-      const double driving = drive.density_excess[list[k].patch] - lowest;
-      if (head > driving) {
-        u *= std::sqrt(driving / head);
-        ++cut;
-      }
+    if (!leaves && head > outside - lowest) {
+      u *= std::sqrt((outside - lowest) / head);
+      ++cut;
     }
+    Vec3 slope = Vec3::Zero();  // of the momentum, over one cell
+    if (leaves && sources[k].behind >= 0)
+      slope = (1.0 + state[k].density_excess) * state[k].velocity - momentum_of(air, sources[k], last, p);
     for (; k < end && list[k].slot == slot; ++k) {
       const int i = list[k].direction;
-      const auto& c = d3q19::velocity[i];
-      const double cu = u.dot(Vec3(c[0], c[1], c[2])), rho = 1.0 + drive.density_excess[list[k].patch];
-      const double dynamic = rho * (4.5 * cu * cu - 1.5 * u.squaredNorm());
-      returning(run, list[k], last, p) = static_cast<T>(
-          -p.departed(run, slot, i, last) + 2.0 * d3q19::weight[i] * (drive.density_excess[list[k].patch] + dynamic));
+      const double w = d3q19::weight[i];
+      const auto& ci = d3q19::velocity[i];
+      const Vec3 c(ci[0], ci[1], ci[2]);
+      if (leaves) {
+        const std::int32_t beside = sources[k].beside;
+        const double passed =
+            p.departed(air.rows.runs()[list[beside].run], list[beside].slot, d3q19::opposite(i), last);
+        const double drho = state[beside].density_excess;
+        returning(run, list[k], last, p) = static_cast<T>(passed - 3.0 * w * c.dot(slope) + 2.0 * w * (outside - drho));
+      } else {
+        const double cu = u.dot(c);
+        const double dynamic = (1.0 + outside) * (4.5 * cu * cu - 1.5 * u.squaredNorm());
+        returning(run, list[k], last, p) =
+            static_cast<T>(-p.departed(run, slot, i, last) + 2.0 * w * (outside + dynamic));
+      }
     }
   }
   return cut;
@@ -80,7 +157,13 @@ std::int64_t apply_outlets(const Air& air, const Drive& drive, Parity last, std:
 
 template void apply_inlets(const Air&, const Drive&, Parity, std::size_t, std::size_t, Populations<float>&);
 template void apply_inlets(const Air&, const Drive&, Parity, std::size_t, std::size_t, Populations<double>&);
-template std::int64_t apply_outlets(const Air&, const Drive&, Parity, std::size_t, std::size_t, Populations<float>&);
-template std::int64_t apply_outlets(const Air&, const Drive&, Parity, std::size_t, std::size_t, Populations<double>&);
+template void find_outlet_air(const Air&, Parity, std::size_t, std::size_t, const Populations<float>&,
+                              std::vector<OutletAir>&);
+template void find_outlet_air(const Air&, Parity, std::size_t, std::size_t, const Populations<double>&,
+                              std::vector<OutletAir>&);
+template std::int64_t apply_outlets(const Air&, const Drive&, const std::vector<OutletAir>&, Parity, std::size_t,
+                                    std::size_t, Populations<float>&);
+template std::int64_t apply_outlets(const Air&, const Drive&, const std::vector<OutletAir>&, Parity, std::size_t,
+                                    std::size_t, Populations<double>&);
 
 }  // namespace puffin::lbm

@@ -2,8 +2,10 @@
 // What comes back along the links that an inlet or an outlet cuts.
 
 #include <cstdint>
+#include <vector>
 
 #include "lbm/air.hpp"
+#include "lbm/link_schedule.hpp"
 
 namespace puffin::lbm {
 
@@ -13,15 +15,34 @@ template <class T>
 void apply_inlets(const Air& air, const Drive& drive, Parity last, std::size_t first, std::size_t end,
                   Populations<T>& p);
 
-/// Anti-bounce-back at the outlet links [first, end), which divide no cell:
-///   f_in = -f_out + 2 w rho (1 + 9/2 (c.u)^2 - 3/2 u^2),
-/// u that of the cell. Where it points into the domain the term would feed itself: u is shortened until its dynamic
-/// pressure is at most what this outlet lies above the lowest one, which is all that air at rest could have gained. So
-/// air enters at the static pressure asked where pressures drive the flow, and back-flow at the lowest (or only) outlet
-/// is cut: u = 0. Returns the number of cells whose u was shortened. Source: Ginzburg, Verhaeghe & d'Humieres, Commun.
-/// Comput. Phys. 3, 427 (2008).
+/// Per outlet link. An outlet lies across the axis along which it closes most faces of cells.
+std::vector<OutletSource> find_outlet_sources(const Rows& rows, const std::vector<OpeningLink>& outlets);
+
+/// The air of a cell before an outlet as its last collision left it.
+struct OutletAir {
+  double density_excess = 0.0;
+  geometry::Vec3 velocity{0, 0, 0};
+};
+
+/// That of the cells of the outlet links [first, end), at the first link of each; before walls act on them.
 template <class T>
-std::int64_t apply_outlets(const Air& air, const Drive& drive, Parity last, std::size_t first, std::size_t end,
-                           Populations<T>& p);
+void find_outlet_air(const Air& air, Parity last, std::size_t first, std::size_t end, const Populations<T>& p,
+                     std::vector<OutletAir>& state);
+
+/// Outlet links [first, end), which divide no cell; `state` of every cell is known. Where the air leaves, what comes
+/// back is what the cells before the outlet hold, as if the flow went on beyond it with the slope that its momentum
+/// rho u has over the last two cells, but for its pressure:
+///   f_in(x) = f_in(x + t) + 3 w c_in.(rho u(x) - rho u(x - n)) + 2 w (rho_out - rho(x + t)),
+/// n one step out, f_in(x + t) having left the cell beside (OutletSource), so that the outlet lies half-way with
+/// rho_out. Exact for parallel shear flow at any tau; docs/decisions/0026-what-comes-back-at-outlets.md.
+/// Where it enters, anti-bounce-back (Ginzburg, Verhaeghe & d'Humieres, Commun. Comput. Phys. 3, 427 (2008)):
+///   f_in = -f_out + 2 w rho_out (1 + 9/2 (c.u)^2 - 3/2 u^2),
+/// u that of the cell, shortened until its dynamic pressure is at most what this outlet lies above the lowest one,
+/// which is all that air at rest could have gained. So air enters at the static pressure asked where pressures drive
+/// the flow, and back-flow at the lowest (or only) outlet is cut: u = 0. Returns the number of cells whose u was
+/// shortened.
+template <class T>
+std::int64_t apply_outlets(const Air& air, const Drive& drive, const std::vector<OutletAir>& state, Parity last,
+                           std::size_t first, std::size_t end, Populations<T>& p);
 
 }  // namespace puffin::lbm
