@@ -216,10 +216,8 @@ void apply_links(const Drive& drive, Air& air) {
         std::vector<std::int64_t> backflow(air.rows.chunks().size(), 0);
         std::vector<OutletAir> state(air.links.outlets.size());
         for_each_chunk(air.rows, [&](int c, const Chunk&) { apply.inlets(c, state); });
-        for_each_chunk(air.rows, [&](int c, const Chunk&) {
-          apply.ready_walls(c, -1);
-          backflow[c] = apply.outlets(c, state);
-        });
+        for_each_chunk(air.rows, [&](int c, const Chunk&) { backflow[c] = apply.outlets(c, state); });
+        for_each_chunk(air.rows, [&](int c, const Chunk&) { apply.ready_walls(c, -1); });
         for (const std::int64_t cells : backflow) air.backflow += cells;
         end_step(last, p, air);
       },
@@ -249,10 +247,8 @@ KernelReport advance_air(const CollisionConstants& constants, const Drive& drive
           apply.ready_walls(c, begin);
         });
         cross_periodic_faces(air.links, last, p);
-        for_each_in_parts(chunks, [&](int c, int) {
-          apply.late_walls(c, begin_of[c]);
-          backflow[c] = apply.outlets(c, state);
-        });
+        if (!state.empty()) for_each_in_parts(chunks, [&](int c, int) { backflow[c] = apply.outlets(c, state); });
+        for_each_in_parts(chunks, [&](int c, int) { apply.late_walls(c, begin_of[c]); });
         end_step(last, p, air);
       },
       air.populations);

@@ -29,15 +29,22 @@ std::size_t run_of(const Rows& rows, std::ptrdiff_t slot) {
   return static_cast<std::size_t>(after - rows.runs().begin()) - 1;
 }
 
+bool is_before_outlet(const Links& links, std::ptrdiff_t slot) {
+  const auto at = std::lower_bound(links.outlets.begin(), links.outlets.end(), slot,
+                                   [](const OpeningLink& link, std::ptrdiff_t s) { return link.slot < s; });
+  return at != links.outlets.end() && at->slot == slot;
+}
+
 struct Needs {
   std::int32_t from = 0, last = 0;  // chunks
 };
 
 /// The chunks that cells [first, end) of a wall run read: their own, and those of the cells behind their near links.
-Needs needs_of(const Rows& rows, const std::vector<std::int32_t>& chunk, const WallRun& wall, int first, int end) {
+Needs needs_of(const Rows& rows, const Links& links, const std::vector<std::int32_t>& chunk, const WallRun& wall,
+               int first, int end) {
   const Run& run = rows.runs()[wall.run];
   Needs needs{chunk[wall.run], chunk[wall.run]};
-  bool periodic = false;
+  bool last_of_all = false;  // it needs what crosses periodic faces, or comes back at an outlet
   for (std::uint32_t near = wall.directions & ~wall.far; near != 0; near &= near - 1) {
     const std::ptrdiff_t back = neighbour_offset(run, d3q19::opposite(std::countr_zero(near)));
     for (int n = first; n < end; ++n) {
@@ -48,11 +55,11 @@ Needs needs_of(const Rows& rows, const std::vector<std::int32_t>& chunk, const W
         needs.last = std::max(needs.last, other);
       } else {  // a solid cell has no weight; the image of an active one has its value after the periodic faces
         const auto c = rows.cell(behind);
-        periodic = periodic || rows.active_slot(c[0], c[1], c[2]) >= 0;
+        last_of_all = last_of_all || rows.active_slot(c[0], c[1], c[2]) >= 0 || is_before_outlet(links, wall.first + n);
       }
     }
   }
-  if (periodic) needs.from = -1;
+  if (last_of_all) needs.from = -1;
   return needs;
 }
 
@@ -68,9 +75,9 @@ bool before(const Item& a, const Item& b) {
   return std::pair(a.needs.last, -a.needs.from) < std::pair(b.needs.last, -b.needs.from);
 }
 
-/// Cells of equal kind are one group. Those that need no chunk but their own, and those that need the periodic faces,
-/// are apart from the others, of which a group waits for the earliest that any of them needs: few groups, so few packs
-/// that are not full.
+/// Cells of equal kind are one group. Those that need no chunk but their own, and those that need periodic faces
+/// or outlets, are apart from the others, of which a group waits for the earliest that any of them needs: few groups,
+/// so few packs that are not full.
 auto kind_of(const Item& i) {
   const int reach = i.needs.from == i.needs.last ? 0 : i.needs.from >= 0 ? 1 : 2;
   return std::tuple(i.needs.last, reach, i.wall->directions, i.wall->far, i.wall->moving);
@@ -153,10 +160,10 @@ LinkSchedule schedule_links(const Rows& rows, const Links& links) {
   std::vector<Item> runs, cells;
   for (const WallRun& wall : links.walls) {
     if (wall.count >= long_run) {
-      runs.push_back({needs_of(rows, chunk, wall, 0, wall.count), &wall, 0});
+      runs.push_back({needs_of(rows, links, chunk, wall, 0, wall.count), &wall, 0});
       continue;
     }
-    for (int n = 0; n < wall.count; ++n) cells.push_back({needs_of(rows, chunk, wall, n, n + 1), &wall, n});
+    for (int n = 0; n < wall.count; ++n) cells.push_back({needs_of(rows, links, chunk, wall, n, n + 1), &wall, n});
   }
   std::stable_sort(runs.begin(), runs.end(), before);
   std::stable_sort(cells.begin(), cells.end(), [](const Item& a, const Item& b) { return kind_of(a) < kind_of(b); });

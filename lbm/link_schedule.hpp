@@ -5,9 +5,11 @@
 // the cell behind, have sent out; so they can be applied as soon as the chunks of both are collided, long before the
 // whole sweep is. A second pass over the cells at walls, with its wait for memory, is saved. Wall cells that have no
 // row of their like are gathered into groups. Outlets also need the cells beside their own, and come when all are
-// collided. The order changes no bit as long as what an outlet needs of a cell is read before its walls: it takes
-// account of the population at rest, which takes the imbalance of the walls. All else that a link writes is a place of
-// its own, read by no other link and no collision of the same step.
+// collided; then walls that wait for an earlier chunk, for periodic faces or for an outlet.
+// The order changes no bit as long as inlets and outlets come before the walls of their own cells: a near wall reads
+// what comes back along an opening's link, and what an outlet needs of a cell is read before its walls, for it takes
+// account of the population at rest, which takes their imbalance. All else that a link writes is a place of its own,
+// read by no other link and no collision of the same step.
 
 #include <cstdint>
 #include <vector>
@@ -22,7 +24,7 @@ struct Waiting {
   /// Per chunk, and one more: the first that waits for this chunk as the last. Within a chunk's part come first those
   /// that need no earlier chunk.
   std::vector<std::size_t> first;
-  std::vector<std::int32_t> needs_from;  // the earliest chunk that each needs; -1: periodic faces
+  std::vector<std::int32_t> needs_from;  // the earliest chunk that each needs; -1: periodic faces or outlets
 
   struct Range {
     std::size_t first, end;
@@ -42,6 +44,7 @@ struct OutletSource {
   std::int32_t run_behind = -1;
   std::ptrdiff_t behind = -1;
 };
+
 struct LinkSchedule {
   std::vector<WallRun> runs;  // long ones, with the coefficients of Links
   Waiting waiting_runs;

@@ -23,7 +23,8 @@ using geometry::Vec3;
 namespace {
 
 /// How a wall at distance q interpolates: weight of f_out(x-c), or of f_own where q >= 1/2 (far); zero, so half-way
-/// reflection, where the cell it comes from is cut off.
+/// reflection, where the cell it comes from is cut off by a wall. Beyond an opening, f_out(x-c) is what comes back
+/// there.
 struct Interpolation {
   bool far = false;
   float weight = 0.0F;
@@ -172,9 +173,9 @@ Links build_links(const Rows& rows, const LinkGeometry& surface, WallScheme sche
     for (int n = 0; n < w.count; ++n) {
       const std::ptrdiff_t slot = w.first + n;
       const auto& cuts = of_run[w.run][slot - run.first];
-      std::uint32_t any = 0, thin = 0;
+      std::uint32_t closed = 0, thin = 0;  // an inlet or outlet behind gives what the air beyond it would have
       for (const Cut& cut : cuts) {
-        any |= 1U << cut.direction;
+        if (cut.thin || !is_opening(kind_of(cut))) closed |= 1U << cut.direction;
         if (cut.thin) thin |= 1U << cut.direction;
       }
       int k = 0;
@@ -184,7 +185,7 @@ Links build_links(const Rows& rows, const LinkGeometry& surface, WallScheme sche
         const std::size_t at = w.coefficient + static_cast<std::size_t>(k++) * w.count + n;
         const int o = d3q19::opposite(i);
         const double q = half ? 0.5 : cut->q;
-        links.partner[at] = interpolation(q, !(any >> o & 1U), !(thin >> o & 1U)).weight;
+        links.partner[at] = interpolation(q, !(closed >> o & 1U), !(thin >> o & 1U)).weight;
         const int patch = cut->patch < 0 ? wall_patch : cut->patch;
         links.wall_patch[at] = static_cast<std::int16_t>(patch);
         if (any_moving && surface.boundaries[patch].profile) {
