@@ -24,5 +24,6 @@ set(PUFFIN_GEOMETRY_SOURCES
   geometry/union_fraction.cpp
   geometry/voxel_errors.cpp
   geometry/voxel_report.cpp
+  geometry/lattice_origin.cpp
   geometry/voxelize.cpp
   geometry/weld.cpp)

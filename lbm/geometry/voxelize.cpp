@@ -12,6 +12,7 @@
 #include <string>
 
 #include "lbm/geometry/closing_caps.hpp"
+#include "lbm/geometry/lattice_origin.hpp"
 #include "lbm/geometry/row_crossings.hpp"
 #include "lbm/geometry/surface_check.hpp"
 #include "lbm/geometry/triangle_distance.hpp"
@@ -29,11 +30,12 @@ Voxels make_box(const TriangleTree& tree, double dx, const VoxelizeOptions& opti
   }
   Voxels box;
   box.dx = dx;
-  box.origin = tree.min() + Vec3::Constant(0.5 * dx);
   double cells = 1.0;
   for (int d = 0; d < 3; ++d) {
     const double length = tree.max()[d] - tree.min()[d];
-    const double exact = length / dx, nearest = std::max(1.0, std::round(exact));
+    const double shift = options.periodic[d] ? 0.0 : lattice_shift(tree, dx, d);
+    box.origin[d] = tree.min()[d] + (0.5 - shift) * dx;
+    const double exact = length / dx + shift, nearest = std::max(1.0, std::round(exact));
     // A length that is a whole number of cells but for single precision coordinates needs no further cell.
     const bool whole = std::abs(exact - nearest) <= 1e-5 * nearest;
     if (options.periodic[d] && !whole) {

@@ -23,8 +23,8 @@ struct Pockets {
   std::vector<Vec3> where;  // [m] a cell centre of each, largest pocket first, at most 1000
 };
 
-/// Voxels of the volume enclosed by the tree's mesh. The low faces of the box are flush with the bounding box
-/// (origin = min + dx/2), the high faces cover it. A cell is fluid if |winding number| > 1/2 at its centre. A centre on
+/// Voxels of the volume enclosed by the tree's mesh. The box covers the bounding box; along each axis most of the
+/// surface's flat faces are faces of cells (lattice_origin.hpp), along a periodic one the ends. A cell is fluid if |winding number| > 1/2 at its centre. A centre on
 /// the surface, to within the rounding of single precision coordinates, belongs to the side towards +x, +y, +z.
 ///
 /// Method: for a closed mesh the winding number along a row of cells is the signed count of the crossings of the row
