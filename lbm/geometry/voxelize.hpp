@@ -24,8 +24,9 @@ struct Pockets {
 };
 
 /// Voxels of the volume enclosed by the tree's mesh. The box covers the bounding box; along each axis most of the
-/// surface's flat faces are faces of cells (lattice_origin.hpp), along a periodic one the ends. A cell is fluid if |winding number| > 1/2 at its centre. A centre on
-/// the surface, to within the rounding of single precision coordinates, belongs to the side towards +x, +y, +z.
+/// surface's flat faces are faces of cells (lattice_origin.hpp), along a periodic one the ends. A cell is fluid if
+/// |winding number| > 1/2 at its centre. A centre on the surface, to within the rounding of single precision
+/// coordinates, belongs to the side towards +x, +y, +z.
 ///
 /// Method: for a closed mesh the winding number along a row of cells is the signed count of the crossings of the row
 /// with triangles. Whether a row crosses a triangle is decided exactly: vertices and rows are moved to a lattice of
