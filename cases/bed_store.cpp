@@ -54,7 +54,8 @@ void add_contact(const dem::Surfaces& surfaces, Bytes& bytes) {
 /// Held while it lives; another process that wants it waits.
 class Lock {
  public:
-  explicit Lock(const std::filesystem::path& file) : file_(open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644)) {
+  explicit Lock(const std::filesystem::path& file)
+      : file_(open(file.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0644)) {
     if (file_ < 0) throw std::system_error(errno, std::generic_category(), "cannot write " + file.string());
     while (flock(file_, LOCK_EX) != 0)
       if (errno != EINTR) throw std::system_error(errno, std::generic_category(), "cannot lock " + file.string());
@@ -139,6 +140,7 @@ SettledBed stored_bed(const std::filesystem::path& store, std::uint64_t key, std
   SettledBed bed = settle();
   const Bytes bytes = written(bed, key);
   const std::filesystem::path part = file.string() + ".part";
+  std::filesystem::remove(part);  // what a killed program left; or a link, which is not followed
   std::ofstream stream(part, std::ios::binary);
   stream.write(bytes.all().data(), static_cast<std::streamsize>(bytes.all().size()));
   stream.close();

@@ -31,7 +31,8 @@ const std::string last_section = "end";
 class WholeFile {
  public:
   explicit WholeFile(const fs::path& file) : file_(file), temporary_(file.string() + ".part") {
-    descriptor_ = open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+    unlink(temporary_.c_str());  // what a killed program left; or a link, which is not followed
+    descriptor_ = open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
     if (descriptor_ < 0) refuse(file_, "write", errno);
   }
   WholeFile(const WholeFile&) = delete;

@@ -1,10 +1,10 @@
 #include "tools/output/hdf5_handle.hpp"
 
 #include <algorithm>
-#include <fstream>
 #include <vector>
 
 #include "tools/output/format_version.hpp"
+#include "tools/output/output_folder.hpp"
 
 namespace puffin::output {
 namespace {
@@ -116,10 +116,7 @@ void Hdf5File::flush() const {
   good(size, "write");
   std::string image(static_cast<std::size_t>(size), '\0');
   good(H5Fget_file_image(file_, image.data(), image.size()), "write");
-  std::ofstream out(path_, std::ios::binary | std::ios::trunc);
-  out.write(image.data(), size);
-  out.close();
-  good(out ? 0 : -1, "write");
+  write_whole(path_, image);
 }
 
 void Hdf5File::set_text(hid_t object, const std::string& name, const std::string& text) const {

@@ -11,6 +11,7 @@
 #include <ctime>
 #include <string_view>
 
+#include "tools/output/link_out.hpp"
 #include "tools/output/output_error.hpp"
 #include "tools/output/summary.hpp"
 
@@ -180,16 +181,9 @@ fs::path OutputFolder::file(const fs::path& relative) const {
   if (std::error_code error; !fs::is_directory(path_, error))
     throw OutputError("the run's folder " + path_.string() +
                       " has vanished; what the run wrote since is lost, so it ends here");
-  const fs::path full = path_ / inside;
+  fs::path full = path_ / inside;
   make_folder(full.parent_path());
-  // A link inside the folder must not lead out of it; one that leads nowhere would make its file there.
-  fs::path real = fs::canonical(full.parent_path());
-  if (fs::is_symlink(fs::symlink_status(full))) real = fs::exists(full) ? fs::canonical(full) : fs::path();
-  const fs::path rest = real.lexically_relative(path_);
-  if (rest.empty() || *rest.begin() == "..") {
-    throw OutputError("refused to write " + full.string() + ": a link leads it out of the run's folder " +
-                      path_.string() + "; remove the link");
-  }
+  refuse_link_out(path_, full);
   return full;
 }
 
@@ -199,7 +193,8 @@ void OutputFolder::write_text(const fs::path& relative, const std::string& text)
 
 void write_whole(const fs::path& file, const std::string& text) {
   const fs::path temporary = file.string() + ".part";
-  const int descriptor = open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, 0644);
+  unlink(temporary.c_str());  // what a killed program left; or a link, which is not followed
+  const int descriptor = open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
   if (descriptor < 0) fail(file, "write", errno);
   std::size_t done = 0;
   int error = 0;

@@ -58,6 +58,19 @@ TEST_F(BedStore, ADamagedBedIsSettledAnew) {
   EXPECT_TRUE(settled_);
 }
 
+TEST_F(BedStore, ALinkInPlaceOfTheTemporaryFileIsNotFollowed) {
+  const std::filesystem::path mine = folder_.string() + "-mine";
+  std::ofstream(mine) << "mine";
+  std::filesystem::create_directories(folder_);
+  std::filesystem::create_symlink(mine, folder_ / "0000000000000007.bed.part");
+  const SettledBed bed{{Vec3(1.0, 2.0, 3.0)}, 0.5, false};
+  take(7, bed);
+  EXPECT_EQ(std::filesystem::file_size(mine), 4U);
+  take(7, bed);
+  EXPECT_TRUE(kept_);
+  std::filesystem::remove(mine);
+}
+
 TEST_F(BedStore, TheKeyGoesWithWhatTheBedDependsOn) {
   dem::Models models;
   lbm::geometry::TriangleMesh mesh{{Vec3::Zero(), Vec3::UnitX(), Vec3::UnitY()}, {{0, 1, 2}}, {0}, {"wall"}};

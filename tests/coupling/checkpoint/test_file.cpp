@@ -43,6 +43,18 @@ TEST(CheckpointFile, ReadsBackWhatWasWritten) {
   EXPECT_THROW(read.at("missing"), CheckpointDamaged);
 }
 
+TEST(CheckpointFile, ALinkInPlaceOfTheTemporaryFileIsReplacedAndNotFollowed) {
+  const Scratch folder;
+  spill(folder / "mine", "mine");
+  std::filesystem::create_symlink(folder / "mine", folder / "c.part");
+  std::filesystem::create_hard_link(folder / "mine", folder / "d.part");
+  for (const char* name : {"c", "d"}) {
+    write_checkpoint(folder / name, sample());
+    EXPECT_EQ(read_checkpoint(folder / name, plenty).sections.size(), sample().sections.size());
+  }
+  EXPECT_EQ(text_of(folder / "mine"), "mine");
+}
+
 TEST(CheckpointFile, EveryFlippedBitIsFound) {
   const Scratch folder;
   write_checkpoint(folder / "c", sample());

@@ -117,6 +117,17 @@ TEST(EventsJournal, BecomesTheFileOfAnUninterruptedRun) {
   EXPECT_TRUE(text_of(folder / "one.h5") == text_of(folder / "two.h5"));
 }
 
+TEST(EventsJournal, ALinkInPlaceOfTheTemporaryFileIsReplacedAndNotFollowed) {
+  const Scratch folder;
+  std::filesystem::create_directory(folder / "run");
+  std::ofstream(folder / "mine") << "mine";
+  std::filesystem::create_symlink(folder / "mine", folder / "run" / "events.h5.part");
+  EventsJournal(folder / "run" / "events.journal")
+      .write_events(folder / "run" / "events.h5", std::vector<EventRecord>{event(1)});
+  EXPECT_EQ(read_events(folder / "run" / "events.h5").size(), 1U);
+  EXPECT_EQ(text_of(folder / "mine"), "mine");
+}
+
 TEST(EventsJournal, OneThatIsTooShortOrForeignIsAnOutputError) {
   const Scratch folder;
   { EventsJournal(folder / "events.journal").append(std::vector<EventRecord>{event(1)}); }

@@ -138,6 +138,22 @@ TEST(OutputFolder, ALinkInPlaceOfAFileIsNotFollowedOut) {
   EXPECT_NO_THROW(out.file("link.txt"));
 }
 
+// Symbolic or hard: opened by its name and cut to no length, either would take the other file's content.
+TEST(WriteWhole, ALinkInPlaceOfTheTemporaryFileIsReplacedAndNotFollowed) {
+  const Scratch folder;
+  fs::create_directory(folder / "run");
+  write_whole(folder / "mine.txt", "mine");
+  fs::create_symlink(folder / "mine.txt", folder / "run" / "a.txt.part");
+  fs::create_hard_link(folder / "mine.txt", folder / "run" / "b.txt.part");
+  fs::create_symlink(folder / "nowhere.txt", folder / "run" / "c.txt.part");
+  for (const char* name : {"a.txt", "b.txt", "c.txt"}) {
+    write_whole(folder / "run" / name, "its");
+    EXPECT_EQ(text_of(folder / "run" / name), "its");
+  }
+  EXPECT_EQ(text_of(folder / "mine.txt"), "mine");
+  EXPECT_FALSE(fs::exists(folder / "nowhere.txt"));
+}
+
 TEST(OutputFolder, AFolderThatCannotBeMadeIsAnOutputErrorWithARemedy) {
   EXPECT_NE(refusal("/proc/puffin/run", false).find("--out"), std::string::npos);
 }

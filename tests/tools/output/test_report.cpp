@@ -91,6 +91,16 @@ TEST(Report, ABareSummaryIsEnough) {
   EXPECT_EQ(count(text, "<img "), 0);
 }
 
+// The folder of a run that was got from elsewhere.
+TEST(Report, PicturesAreNotKeptBehindALinkOutOfTheRun) {
+  const Scratch folder;
+  write_synthetic_run(folder / "run");
+  std::filesystem::create_directory(folder / "mine");
+  std::filesystem::create_directory_symlink(folder / "mine", folder / "run" / "images");
+  EXPECT_TRUE(has(make_report(folder / "run"), "leads it out of the folder"));
+  EXPECT_TRUE(std::filesystem::is_empty(folder / "mine"));
+}
+
 TEST(Report, AFolderWithoutASummaryIsAnOutputError) {
   const Scratch folder;
   EXPECT_THROW(make_report(folder.path()), OutputError);

@@ -69,6 +69,24 @@ TEST_F(BatchStudy, AFinishedRunOfAnotherCaseIsNeverTakenForThisOne) {
   EXPECT_NE(text("log.txt").find("finished run of another case"), std::string::npos);
 }
 
+// The folder of a study that was got from elsewhere: a log is appended to, what settled beds and lists share lies in
+// one.
+TEST_F(BatchStudy, ALinkOutOfTheStudyIsRefused) {
+  file("study.toml", "base = \"case.toml\"\n[[case]]\nname = \"a\"\n");
+  file("mine.txt", "mine");
+  for (const char* link : {"out/.lock", "out/a/seed-1/run.log", "out/a/seed-1", "out/shared"}) {
+    fs::remove_all(folder_ / "out");
+    fs::create_directories((folder_ / link).parent_path());
+    fs::create_symlink(folder_ / (link == std::string("out/a/seed-1/run.log") ? "mine.txt" : "nowhere"),
+                       folder_ / link);
+    EXPECT_EQ(batch(""), 7) << link;
+    EXPECT_NE(text("log.txt").find("leads it out of the folder"), std::string::npos) << link << text("log.txt");
+    fs::remove(folder_ / "log.txt");
+    EXPECT_FALSE(fs::exists(folder_ / "nowhere")) << link;
+  }
+  EXPECT_EQ(text("mine.txt"), "mine");
+}
+
 TEST_F(BatchStudy, TheTableStandsBesideTheGivenValues) {
   file("study.toml", "base = \"case.toml\"\nreplicates = 2\n[[case]]\nname = \"a\"\n");
   ASSERT_EQ(batch(""), 0) << text("log.txt");

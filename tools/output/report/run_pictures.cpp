@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "tools/output/csv_file.hpp"
+#include "tools/output/link_out.hpp"
 #include "tools/output/output_error.hpp"
 #include "tools/output/picture/views.hpp"
 #include "tools/output/report/html.hpp"
@@ -132,13 +133,16 @@ RunPicture wall_map_picture_of_run(const std::string& quantity) {
 
 std::string embedded(const fs::path& run, const RunPicture& picture, bool kept) {
   const fs::path file = run / "images" / (picture.name + ".png");
-  if (!kept || !newer(file, run / "summary.json")) try {
+  try {
+    refuse_link_out(run, file);
+    if (!kept || !newer(file, run / "summary.json")) {
       std::error_code error;
       fs::create_directories(file.parent_path(), error);
       render(run, picture.view, picture.time, file, picture.options);
-    } catch (const OutputError& error) {
-      return left_out(error.what());
     }
+  } catch (const OutputError& error) {
+    return left_out(error.what());
+  }
   std::ifstream stream(file, std::ios::binary);
   std::stringstream bytes;
   bytes << stream.rdbuf();

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "tools/output/experiments.hpp"
+#include "tools/output/link_out.hpp"
 #include "tools/output/output_error.hpp"
 #include "tools/output/output_folder.hpp"
 #include "tools/output/report/html.hpp"
@@ -120,6 +121,10 @@ Book::Book(fs::path folder, const cases::Study& study, const Jobs& plan)
   std::error_code error;
   fs::create_directories(folder_, error);
   folder_ = fs::absolute(folder_);
+  // Got from elsewhere, the folder may hold links; what is written whole replaces them, but these are written through.
+  for (const char* name : {".lock", "shared/any", "shared/beds/any", "slurm/any"})
+    output::refuse_link_out(folder_, folder_ / name);
+  for (std::size_t n = 0; n < plan.jobs.size(); ++n) output::refuse_link_out(folder_, log_file(n));
   lock_ = open((folder_ / ".lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
   if (lock_ < 0)
     throw output::OutputError("cannot write into " + folder_.string() + "; choose another folder with --out");

@@ -256,6 +256,7 @@ class Batch {
     for (const Member& m : plan_.jobs[n].members) {
       const std::filesystem::path file = book_.replay_file(n, m), part = file.string() + ".part";
       if (m.micromodels.empty() || std::filesystem::exists(file)) continue;
+      std::filesystem::remove(part);  // a link would be written through
       const std::string program = std::filesystem::read_symlink("/proc/self/exe").string();
       const int code = std::system((shell_quoted(program) + " replay " + shell_quoted(book_.run_folder(n).string()) +
                                     " --micromodels " + shell_quoted(m.micromodels) + " --json > " +
