@@ -1,5 +1,6 @@
 #include "coupling/replay_fines.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
@@ -36,7 +37,7 @@ class DragDemand {
   bool acts_ = false, own_ = false;
 };
 
-/// Empty if nothing of the kind was released.
+/// Empty if nothing of the kind was released. Rounding may have left a little more than that emitted or on the walls.
 std::optional<FinesRecord::Share> fate(const std::array<FinesRecord::Share, mechanisms>& shares, int only) {
   FinesRecord::Share sum;
   for (int m = 0; m < mechanisms; ++m) {
@@ -46,7 +47,8 @@ std::optional<FinesRecord::Share> fate(const std::array<FinesRecord::Share, mech
     sum.deposited += shares[m].deposited;
   }
   if (!(sum.released > 0.0)) return {};
-  return FinesRecord::Share{1.0, 0.0, sum.emitted / sum.released, sum.deposited / sum.released};
+  const double emitted = std::clamp(sum.emitted / sum.released, 0.0, 1.0);
+  return FinesRecord::Share{1.0, 0.0, emitted, std::clamp(sum.deposited / sum.released, 0.0, 1.0 - emitted)};
 }
 
 Ledger books(const Replayed& replayed, const FinesRecord& record, const std::vector<double>& left,

@@ -88,7 +88,8 @@ ReplayTables read_replay_tables(const std::filesystem::path& events) {
   if (H5Lexists(file.id(), "replay_carriers", H5P_DEFAULT) <= 0)
     throw OutputError(events.string() +
                       " holds nothing to replay: the run carried no fines through air, or fines came back to carriers "
-                      "(fines.reattachment, fines.pick_up), or an older version wrote it");
+                      "(fines.reattachment, fines.pick_up), or others were in the air at the start or came in "
+                      "through an opening, or an older version wrote it");
   ReplayTables tables;
   tables.carriers = read<Carrier>(file, "replay_carriers");
   tables.slip = read<Slip>(file, "replay_slip");

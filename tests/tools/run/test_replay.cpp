@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "tests/tools/run/small_dose.hpp"
@@ -66,42 +68,105 @@ TEST_F(Replay, TheRunsOwnConstantsReturnItsResults) {
   EXPECT_EQ(puffin("replay nowhere --micromodels lactose-3.6e-3.toml", "none"), 7);
 }
 
-// Its one contact is sound at first, then wrong in one way after the other.
+// The record of one carrier with one contact is sound at first, then wrong in one way after the other.
 TEST_F(Replay, ARecordThatNoRunWritesIsRefused) {
-  const auto replayed = [&](const output::EventRecord& contact, const output::ReplayTables::Slip& slip) {
+  struct Record {
+    output::EventRecord contact{.a = 0, .b = -1, .normal_speed = 1.0, .angle = 90.0, .order = 0.0, .a_loses = 1};
+    output::ReplayTables tables{.end = 1e-3,
+                                .carriers = {{2000.0, 0.0, 0, 0}},
+                                .slip = {{1e-3, 1e-3, 0, 0}},
+                                .air = {{4.0, 1.0, 2.0, 1.0, 0, 0}, {.mechanism = 1}, {.mechanism = 2}},
+                                .rates = {},
+                                .scalars = {"fines"}};
+  };
+  const auto replayed = [&](const Record& r) {
     std::filesystem::create_directories(folder_ / "out");
-    output::EventsFile(folder_ / "out" / "events.h5").append({&contact, 1});
-    output::ReplayTables tables;
-    tables.end = 1e-3;
-    tables.carriers = {{2000.0, 0.0, 0, 0}};
-    tables.slip = {slip};
-    tables.air = {{}};
-    tables.scalars = {"fines"};
-    output::write_replay_tables(folder_ / "out" / "events.h5", tables);
+    output::EventsFile(folder_ / "out" / "events.h5").append({&r.contact, 1});
+    output::write_replay_tables(folder_ / "out" / "events.h5", r.tables);
     return puffin("replay out --micromodels lactose-3.6e-3.toml", "said");
   };
-  output::EventRecord sound;
-  sound.a = 0, sound.b = -1, sound.normal_speed = 1.0, sound.angle = 90.0, sound.a_loses = 1;
-  const output::ReplayTables::Slip slip{1e-3, 1e-3, 0, 0};
-  ASSERT_EQ(replayed(sound, slip), 0) << text("said.log");
-  const auto is_damage = [&](int code) {
-    return code == 7 && text("said.log").find("events.h5 is damaged: ") != std::string::npos;
-  };
-  const double nan = std::nan("");
-  for (const int carrier : {-5, 1, 1000000000}) {
-    auto wrong = sound;
-    wrong.a = carrier;
-    EXPECT_TRUE(is_damage(replayed(wrong, slip))) << carrier << text("said.log");
+  ASSERT_EQ(replayed({}), 0) << text("said.log");
+  const double nan = std::nan(""), infinite = HUGE_VAL;
+  using Tables = output::ReplayTables;
+  using Wrong = std::function<void(Record&)>;
+  const auto contact = [](auto member, auto value) { return [=](Record& r) { r.contact.*member = value; }; };
+  const auto carrier = [](auto member, auto value) { return [=](Record& r) { r.tables.carriers[0].*member = value; }; };
+  const auto slip = [](auto member, auto value) { return [=](Record& r) { r.tables.slip[0].*member = value; }; };
+  const auto air = [](auto member, auto value) { return [=](Record& r) { r.tables.air[0].*member = value; }; };
+  std::vector<std::pair<std::string, Wrong>> wrong;
+  const auto add = [&](const std::string& says, const Wrong& change) { wrong.emplace_back(says, change); };
+  using Event = output::EventRecord;
+  for (const int id : {-5, 1, 12345}) {
+    add("/events, row 0: a is " + std::to_string(id), contact(&Event::a, id));
+    add("/replay_slip, row 0: carrier is " + std::to_string(id), slip(&Tables::Slip::carrier, id));
+    add("/replay_carriers, row 0: id is " + std::to_string(id), carrier(&Tables::Carrier::id, id));
   }
-  for (const auto member :
-       {&output::EventRecord::order, &output::EventRecord::time_start, &output::EventRecord::normal_speed,
-        &output::EventRecord::angle, &output::EventRecord::drag_a}) {
-    auto wrong = sound;
-    wrong.*member = nan;
-    EXPECT_TRUE(is_damage(replayed(wrong, slip))) << text("said.log");
+  add("/events, row 0: b is 0, but must be another carrier than a", contact(&Event::b, 0));
+  for (const double value : {nan, infinite, -2.0}) {
+    add("/events, row 0: time_start is ", contact(&Event::time_start, value));
+    add("/events, row 0: normal_speed is ", contact(&Event::normal_speed, value));
+    add("/events, row 0: tangential_speed is ", contact(&Event::tangential_speed, value));
+    add("/events, row 0: angle is ", contact(&Event::angle, value));
+    add("/events, row 0: order is ", contact(&Event::order, value));
+    add("/events, row 0: drag_a is ", contact(&Event::drag_a, value));
+    add("/events, row 0: drag_b is ", contact(&Event::drag_b, value));
+    add("/replay_carriers, row 0: initial is ", carrier(&Tables::Carrier::initial, value));
+    add("/replay_carriers, row 0: drag_rest is ", carrier(&Tables::Carrier::drag_rest, value));
+    add("/replay_slip, row 0: seconds is ", slip(&Tables::Slip::seconds, value));
+    add("/replay_slip, row 0: metres is ", slip(&Tables::Slip::metres, value));
+    add("/replay_air, row 0: released is ", air(&Tables::Air::released, value));
+    add("/replay_air, row 0: emitted is ", air(&Tables::Air::emitted, value));
+    add("/replay_air, row 0: deposited is ", air(&Tables::Air::deposited, value));
+    add("/replay_air, row 0: in_air is ", air(&Tables::Air::in_air, value));
+    add("/replay_rates, row 0: rate is ", [=](Record& r) { r.tables.rates = {value}; });
+    add("replay_end is ", [=](Record& r) { r.tables.end = value; });
   }
-  EXPECT_TRUE(is_damage(replayed(sound, {nan, 1e-3, 0, 0}))) << text("said.log");
-  EXPECT_TRUE(is_damage(replayed(sound, {1e-3, 1e-3, 1, 0}))) << text("said.log");
+  add("/events, row 0: time_start is 0.002, but must be from 0 to 0.001", contact(&Event::time_start, 2e-3));
+  add("/events, row 0: normal_speed is 1e+09", contact(&Event::normal_speed, 1e9));  // faster than light
+  add("/events, row 0: angle is 91", contact(&Event::angle, 91.0));
+  add("/events, row 0: a_loses is 2", contact(&Event::a_loses, 2));
+  add("/replay_carriers, row 0: initial is 1e+300", carrier(&Tables::Carrier::initial, 1e300));
+  add("/replay_carriers, row 0: emitted is -1", carrier(&Tables::Carrier::emitted, -1));
+  add("/replay_slip, row 0: slip_class is 50", slip(&Tables::Slip::slip_class, 50));
+  add("/replay_slip, row 0: seconds is 1", slip(&Tables::Slip::seconds, 1.0));
+  add("/replay_air, row 0: released is 2001, but must be from 0 to 2000", air(&Tables::Air::released, 2001.0));
+  add("/replay_air, row 0: emitted is 5, but must be from 0 to 4", air(&Tables::Air::emitted, 5.0));
+  add("/replay_air, row 0: in_air is 1.5, but must be what is released", air(&Tables::Air::in_air, 1.5));
+  add("/replay_air, row 0: mechanism is 1, but must be 0", air(&Tables::Air::mechanism, 1));
+  add("/replay_air has 2 rows, but must have 3", [](Record& r) { r.tables.air.pop_back(); });
+  for (const auto& [says, change] : wrong) {
+    Record record;
+    change(record);
+    EXPECT_EQ(replayed(record), 7) << says << text("said");
+    EXPECT_NE(text("said.log").find("out/events.h5 is damaged: " + says), std::string::npos) << says << '\n'
+                                                                                             << text("said.log");
+    EXPECT_NE(text("said.log").find("repeat the run"), std::string::npos) << "the remedy";
+  }
+}
+
+// As far as a sound record may go: parts of the dose, finite and not negative, that add up.
+TEST_F(Replay, WhatIsAcceptedGivesFinitePartsOfTheDose) {
+  std::filesystem::create_directories(folder_ / "out");
+  output::EventRecord contact{.a = 0, .b = 1, .normal_speed = 2e8, .tangential_speed = 2e8, .order = 0.0, .a_loses = 1};
+  contact.drag_a = 1e308;
+  output::EventsFile(folder_ / "out" / "events.h5").append({&contact, 1});
+  output::write_replay_tables(folder_ / "out" / "events.h5",
+                              {.end = 1e300,
+                               .carriers = {{1e30, 1e308, 0, 1}, {0.0, 0.0, 1, 0}},
+                               .slip = {{1e-300, 1e-292, 0, 49}},
+                               .air = {{1e-300, 0.0, 1e20, 0.0, 0, 0}, {.mechanism = 1}, {.mechanism = 2}},
+                               .rates = {1.0},
+                               .scalars = {"fines"}});
+  // Emitted: more than was released, within what rounding may leave of a dose of 1e30.
+  ASSERT_EQ(puffin("replay out --micromodels lactose-3.6e-3.toml --json", "said"), 0) << text("said.log");
+  const json fines = json::parse(text("said")).at("fines").at("fines");
+  double sum = 0.0;
+  for (const char* part : {"FFE", "FFW", "FFCR", "FFCE", "in_air"}) {
+    ASSERT_TRUE(fines.at(part).is_number()) << part << text("said");
+    EXPECT_GE(fines.at(part).get<double>(), 0.0) << part;
+    sum += fines.at(part).get<double>();
+  }
+  EXPECT_NEAR(sum, 1.0, 1e-12);
 }
 
 TEST_F(Replay, MicromodelsAreFittedAndShown) {
