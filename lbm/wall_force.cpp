@@ -128,6 +128,16 @@ std::array<double, 3> force_on_patch(const Air& air, int boundary) {
               add_link(air, slot, i, exchanged(air.rows.runs()[wall.run], slot, i), boundary, beyond, force);
             }
           }
+        // Both sides of a thin wall got back what they had sent; the wall took twice the difference.
+        for (const Links::ThinLink& link : air.links.thin) {
+          if (link.patch != boundary) continue;
+          const Run& run = air.rows.runs()[link.run];
+          const auto c = air.rows.cell(link.slot + neighbour_offset(run, link.direction));
+          const std::ptrdiff_t beside = air.rows.active_slot(c[0], c[1], c[2]);
+          const double sent = p.arrived(run, link.slot, d3q19::opposite(link.direction)),
+                       met = p.arrived(air.rows.runs()[air.run_of_slot[beside]], beside, link.direction);
+          for (int d = 0; d < 3; ++d) force[d] += 2.0 * (sent - met) * d3q19::velocity[link.direction][d];
+        }
         for (const auto* list : {&air.links.inlets, &air.links.outlets})
           for (const OpeningLink& link : *list) {
             const auto beyond = [&](int axis) { return faces.patch(link.slot, axis, Faces::none); };

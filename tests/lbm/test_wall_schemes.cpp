@@ -85,6 +85,56 @@ double mass_left_of(const Air& air, double x) {
   return sum;
 }
 
+/// A sphere of radius 4 in the middle of a periodic box of 16 cells, its facets `around` to the equator.
+BoxScene sphere_scene(int around = 24) {
+  const Vec3 length(16, 16, 16), centre(8.2, 8.1, 7.9);
+  const double radius = 4.0;
+  BoxScene scene = make_box(length, 1.0, {periodic(), periodic(), periodic(), periodic(), periodic(), periodic()});
+  scene.surface.boundaries.push_back(test::wall());
+  scene.surface.boundaries.back().patch = "sphere";
+  scene.mesh.solids.push_back("sphere");
+  const int first = static_cast<int>(scene.mesh.vertices.size()), rings = around / 2;
+  const auto at = [&](int ring, int j) {  // the poles are one vertex each
+    if (ring == 0) return first;
+    if (ring == rings) return first + 1;
+    return first + 2 + (ring - 1) * around + j % around;
+  };
+  scene.mesh.vertices.push_back(centre + Vec3(0, 0, radius));
+  scene.mesh.vertices.push_back(centre - Vec3(0, 0, radius));
+  for (int i = 1; i < rings; ++i)
+    for (int j = 0; j < around; ++j) {
+      const double theta = std::numbers::pi * i / rings, phi = 2.0 * std::numbers::pi * j / around;
+      scene.mesh.vertices.push_back(
+          centre + radius * Vec3(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)));
+    }
+  const auto add = [&](int a, int b, int c) {  // normals into the sphere: out of the air
+    scene.mesh.triangles.push_back({a, c, b});
+    scene.mesh.solid.push_back(6);
+    scene.surface.patch_of_triangle.push_back(6);
+  };
+  for (int i = 0; i < rings; ++i)
+    for (int j = 0; j < around; ++j) {
+      if (i > 0) add(at(i, j), at(i + 1, j), at(i, j + 1));
+      if (i + 1 < rings) add(at(i, j + 1), at(i + 1, j), at(i + 1, j + 1));
+    }
+  scene.voxels.fill([&](int i, int j, int k) { return (scene.voxels.centre(i, j, k) - centre).norm() > radius; });
+  return scene;
+}
+
+/// Momentum of all computed cells.
+Vec3 momentum(const Air& air) {
+  Vec3 sum = Vec3::Zero();
+  for (const Run& run : air.rows.runs())
+    for (int n = 0; n < run.count; ++n) {
+      const auto m = moments_at(air, run.first + n);
+      Vec3 force = Vec3::Zero();  // half of which is in the velocity
+      if (air.markers)
+        for (int d = 0; d < 3; ++d) force[d] = air.markers->force[d][run.first + n];
+      sum += (1.0 + m.density_excess) * Vec3(m.ux, m.uy, m.uz) - 0.5 * force;
+    }
+  return sum;
+}
+
 const WallScheme cell_schemes[] = {WallScheme::psm, WallScheme::ibm};
 
 }  // namespace
@@ -185,6 +235,28 @@ TEST(WallSchemes, ForceOnTheWallsIsWhatDrivesTheChannel) {
     const double least = scheme == WallScheme::psm ? c.force * 0.8 * static_cast<double>(c.air.fluid_cells) : driving;
     EXPECT_LE(taken, driving * 1.01);
     EXPECT_GE(taken, least * 0.99);
+  }
+}
+
+// Nothing drives the air, so what the sphere takes is what the air loses, in every step; markers and partial cells keep
+// their forces in float: 1e-5 of the sum. Without the links between the cells behind the surface, 23 % were missing
+// with partial cells, and with markers the force was half as large again in a stream at Re 100.
+TEST(WallSchemes, ForceOnASphereIsTheMomentumThatTheAirLoses) {
+  for (const WallScheme scheme : {WallScheme::bouzidi, WallScheme::halfway, WallScheme::psm, WallScheme::ibm}) {
+    BoxScene scene = sphere_scene();
+    Air air = make_air(scene, laminar(scheme));
+    set_cells([](const Vec3&) { return InitialCell{0.0, {0.05, 0.0, 0.0}, {}}; }, air);
+    const Drive drive = at_rest(air);
+    for (int t = 0; t < 100; ++t) step(air, 0.52, drive);
+    const Vec3 before = momentum(air);
+    double taken = 0.0;
+    for (int t = 0; t < 20; ++t) {
+      step(air, 0.52, drive);
+      taken += force_on_patch(air, 6)[0];
+    }
+    const Vec3 lost = before - momentum(air);
+    ASSERT_GT(lost[0], 1.0);
+    EXPECT_NEAR(taken / lost[0], 1.0, 1e-5) << static_cast<int>(scheme);
   }
 }
 
