@@ -71,8 +71,9 @@ void check_slip(const Row& row, const output::ReplayTables::Slip& s, double end,
 /// dose: fines on all carriers.
 void check_air(const Row& row, const output::ReplayTables::Air& a, std::size_t n, double dose) {
   const double slack = coupling::HealthLimits{}.ledger * dose;  // a run with more does not end well
-  row.equals("set", a.set, static_cast<double>(n / coupling::mechanisms));
-  row.equals("mechanism", a.mechanism, static_cast<double>(n % coupling::mechanisms));
+  const std::size_t set = n / coupling::mechanisms, mechanism = n % coupling::mechanisms;
+  row.equals("set", a.set, static_cast<double>(set));
+  row.equals("mechanism", a.mechanism, static_cast<double>(mechanism));
   row.within("released", a.released, 0.0, dose, slack);
   row.within("emitted", a.emitted, 0.0, a.released, slack);
   row.within("deposited", a.deposited, 0.0, a.released, slack);
