@@ -138,7 +138,8 @@ class Checks {
                                 " mm^3; give fewer or smaller ones");
   }
 
-  /// A run of which nobody will see the end, or that ends within a thousandth of its first step: a wrong unit.
+  /// A run of which nobody will see the end, or that ends within a thousandth of its first step: a wrong unit. Or one
+  /// whose time step, given in seconds, lets the air cross more of a cell than numerics.lattice_speed may.
   void duration() {
     constexpr double most_steps = 1e11, least_steps = 1e-3;  // 10^11: three years at 1,000 steps a second
     const AreaOf area_of = [&](const std::string& patch) { return surface_.area_of(patch); };
@@ -154,6 +155,12 @@ class Checks {
     else if (n.steps < least_steps)
       say("stop.time", "comes within a thousandth of the first step, " + step + ", as the air reaches only " +
                            reference + " until then: check its unit, or give numerics.reference_speed");
+    constexpr double most_cells = 0.3;
+    const double cells = speed * n.dt / n.dx;
+    if (c_.numerics.time_step == TimeStepRule::given && cells > most_cells)
+      say("numerics.time_step", "lets air of " + reference + " cross " + four_digits(cells) +
+                                    " cells a step; beyond 0.3 no scheme here is stable: take " +
+                                    format_quantity(n.dt * 0.1 / cells, unit::time) + " (0.1 cells) or \"fixed\"");
   }
 
   /// Reflection along the grid is exact only on planes of the grid: refuse the rest instead of adding friction.

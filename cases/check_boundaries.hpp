@@ -11,8 +11,8 @@ namespace puffin::cases {
 
 /// Names of patches that the surface does not have; boundaries on patches without area; periodic pairs that are not the
 /// two congruent ends of the box, opposite along an axis; a velocity vector that does not point into the fluid; a slip
-/// wall that is not along the grid; more carriers than the device holds; a run of more than 10^11 steps. Every problem,
-/// at its place in the file.
+/// wall that is not along the grid; more carriers than the device holds; a run of more than 10^11 steps; a
+/// time step too long for any scheme. Every problem, at its place in the file.
 std::vector<Problem> boundary_problems(const Case& c, const Surface& surface);
 
 /// A problem at the place of a key (dotted), or of the nearest table around it.

@@ -42,6 +42,20 @@ TEST(Boundaries, APeriodicPairMayBeNamedFromEitherSideOrBoth) {
   for (const std::string& pair : {one, other, one + other}) EXPECT_EQ(first_problem(scene(box, pair)), "");
 }
 
+// 1 m/s through cells of 1 mm: a step of 2e-3 s crosses two of them, one of 0.25 ms a quarter. As `lattice_speed` a 2
+// is refused at once; such a run diverged four times before it gave up.
+TEST(Boundaries, ATimeStepThatNoSchemeCanTakeIsRefused) {
+  const auto with_step = [](const std::string& step) {
+    std::string text = scene(duct, boundary("inlet", "type = \"velocity-inlet\"\nvelocity = 1.0") +
+                                       boundary("outlet", "type = \"pressure-outlet\""));
+    return text.replace(text.find("dx ="), 0, "time_step = \"" + step + "\"\n");
+  };
+  EXPECT_EQ(first_problem(with_step("0.25 ms")), "");
+  const std::string told = first_problem(with_step("2e-3 s"));
+  EXPECT_NE(told.find("numerics.time_step: lets air of 1 m/s cross 2 cells a step"), std::string::npos) << told;
+  EXPECT_NE(told.find("take 1e-04 s"), std::string::npos) << told;
+}
+
 TEST(Boundaries, ContradictionsAreNamedAtTheirPlace) {
   const auto periodic = [](const std::string& a, const std::string& b) {
     return boundary(a, "type = \"periodic\"\nwith = \"" + b + "\"");
