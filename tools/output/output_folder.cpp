@@ -191,7 +191,9 @@ void OutputFolder::write_text(const fs::path& relative, const std::string& text)
   write_whole(file(relative), text);
 }
 
-void write_whole(const fs::path& file, const std::string& text) {
+namespace {
+
+void write_and_rename(const fs::path& file, const std::string& text, bool sync) {
   const fs::path temporary = file.string() + ".part";
   unlink(temporary.c_str());  // what a killed program left; or a link, which is not followed
   const int descriptor = open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
@@ -206,7 +208,7 @@ void write_whole(const fs::path& file, const std::string& text) {
       error = errno;
     }
   }
-  if (error == 0 && fsync(descriptor) != 0 && errno != EINVAL) error = errno;
+  if (error == 0 && sync && fsync(descriptor) != 0 && errno != EINVAL) error = errno;
   if (close(descriptor) != 0 && error == 0) error = errno;
   if (error == 0 && std::rename(temporary.c_str(), file.c_str()) != 0) error = errno;
   if (error != 0) {
@@ -214,6 +216,12 @@ void write_whole(const fs::path& file, const std::string& text) {
     fail(file, "write", error);
   }
 }
+
+}  // namespace
+
+void write_whole(const fs::path& file, const std::string& text) { write_and_rename(file, text, true); }
+
+void replace_whole(const fs::path& file, const std::string& text) { write_and_rename(file, text, false); }
 
 void keep_first(const fs::path& file, std::uint64_t bytes) {
   std::error_code error;

@@ -43,6 +43,8 @@ std::int64_t checkpoint_number(const std::filesystem::path& file);
 
 /// Writes a file whole or not at all: temporary name beside it, sync, rename. Throws OutputError.
 void write_whole(const std::filesystem::path& file, const std::string& text);
+/// The same without waiting for the disk: readers find it whole, a power failure may still take it until sync_file().
+void replace_whole(const std::filesystem::path& file, const std::string& text);
 /// Cuts a file behind its first `bytes`. Throws OutputError if it is shorter or cannot be cut.
 void keep_first(const std::filesystem::path& file, std::uint64_t bytes);
 /// What other programs and a power failure will see is what was written. Throws OutputError.

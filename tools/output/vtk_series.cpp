@@ -88,7 +88,16 @@ void VtkSeries::commit(double time, int part, const std::string& file) {
   // The same part of the same moment again replaces the first: a final frame may fall on an output time.
   std::erase_if(entries_, [&](const SeriesEntry& e) { return e.time == time && e.part == part; });
   entries_.push_back({time, part, file});
-  write_whole(folder_ / (name_ + ".pvd"), pvd_text(entries_));
+  unsynced_.insert(folder_ / file);
+  replace_whole(folder_ / (name_ + ".pvd"), pvd_text(entries_));
+}
+
+void VtkSeries::sync() {
+  if (unsynced_.empty()) return;
+  unsynced_.insert(folder_ / (name_ + ".pvd"));
+  for (const fs::path& file : unsynced_)
+    if (fs::exists(file)) sync_file(file);  // who takes frames away while it runs may
+  unsynced_.clear();
 }
 
 void VtkSeries::append(double time, const FieldFrame& frame, int part) {

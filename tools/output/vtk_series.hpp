@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@ struct SeriesEntry {
 
 /// Writes folder/NAME.pvd and folder/NAME_000000[_part].vti|vtp. Every file appears under a temporary name and is then
 /// renamed, the data before the .pvd: whatever moment the program is killed at, the .pvd names complete files only.
+/// Nothing waits for the disk before sync(), as a small frame is written a hundred times faster than synced.
 class VtkSeries {
  public:
   /// keep: go on with an existing series after its first so many entries and remove the rest; absent: start anew.
@@ -28,6 +30,9 @@ class VtkSeries {
   void append(double time, const CarrierFrame& frame, int part = 0);
   void append(double time, const WallFrame& frame, int part = 0);
 
+  /// Puts all frames so far onto the disk. Throws OutputError.
+  void sync();
+
   const std::vector<SeriesEntry>& entries() const { return entries_; }
 
  private:
@@ -37,6 +42,7 @@ class VtkSeries {
   std::filesystem::path folder_;
   std::string name_;
   std::vector<SeriesEntry> entries_;
+  std::set<std::filesystem::path> unsynced_;
   int next_number_ = 0;
 };
 

@@ -63,7 +63,7 @@ void write_xml(const std::filesystem::path& file, Data* data) {
   writer->SetCompressionLevel(1);
   writer->WriteToOutputStringOn();
   if (!writer->Write()) throw OutputError("cannot write " + file.string() + ": VTK refused the data");
-  write_whole(file, writer->GetOutputString());
+  replace_whole(file, writer->GetOutputString());
 }
 
 }  // namespace

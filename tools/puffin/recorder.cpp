@@ -175,6 +175,8 @@ void Recorder::sync() {
   for (auto* csv : {&history_csv_, &probes_csv_, &planes_csv_, &forces_csv_, &tracks_csv_})
     if (*csv) (*csv)->sync();
   if (events_) events_->sync();
+  for (auto* series : {&fields_vtk_, &carriers_vtk_, &walls_vtk_})
+    if (*series) (*series)->sync();
   write_stats();
 }
 
@@ -335,6 +337,8 @@ void Recorder::finish(const cases::Simulation& s) {
   write_walls(s);
   for (auto* csv : {&history_csv_, &probes_csv_, &planes_csv_, &forces_csv_, &tracks_csv_})
     if (*csv) (*csv)->flush();
+  for (auto* series : {&fields_vtk_, &carriers_vtk_, &walls_vtk_})
+    if (*series) (*series)->sync();
   write_stats();
   if (!events_) return;
   const auto tables = replay_tables(s);
