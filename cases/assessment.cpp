@@ -150,6 +150,7 @@ Assessment assess(const Case& given, const Surface& s) {
     geometry::VoxelizeOptions options;
     options.periodic = periodic_directions(c, s);
     if (!openings.empty()) options.openings = s.marked(openings);
+    options.flush = s.marked(slip_patches_of(c));
     const geometry::TriangleTree tree(s.mesh);
     geometry::Pockets dropped;
     try {

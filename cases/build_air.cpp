@@ -99,6 +99,7 @@ void build_lattice(const LatticeNumbers& numbers, Simulation& s) {
   for (const auto& name : openings_of(c))
     if (!is_periodic(c.air, name)) openings.push_back(name);
   if (!openings.empty()) options.openings = s.surface.marked(openings);
+  options.flush = s.surface.marked(slip_patches_of(c));
   try {
     s.voxels = geometry::voxelize(*s.tree, s.dx, options, &s.pockets);
   } catch (const std::invalid_argument& e) {

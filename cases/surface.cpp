@@ -119,4 +119,11 @@ std::vector<std::string> openings_of(const Case& c) {
   return names;
 }
 
+std::vector<std::string> slip_patches_of(const Case& c) {
+  std::vector<std::string> names;
+  for (const Boundary& b : c.air.boundaries)
+    if (b.type == BoundaryType::slip) names.push_back(b.patch);
+  return names;
+}
+
 }  // namespace puffin::cases

@@ -36,4 +36,7 @@ Surface load_surface(const Case& c, bool self_intersections = false);
 /// Patches through which air passes: inlets, outlets, periodic faces (with their partners).
 std::vector<std::string> openings_of(const Case& c);
 
+/// Patches of slip walls, which are exact on faces of cells alone.
+std::vector<std::string> slip_patches_of(const Case& c);
+
 }  // namespace puffin::cases

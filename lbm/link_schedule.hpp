@@ -35,12 +35,16 @@ struct Waiting {
   Range late(int chunk, int begin) const { return {ready(chunk, begin).end, first[chunk + 1]}; }
 };
 
-/// Where what comes back along an outlet link is read.
+/// Where what comes back along an outlet link is read. Cells are named by the number of their first outlet link.
 struct OutletSource {
-  /// Number of a link of the neighbour beside the link's own cell, one step on along the outlet as the link goes, where
-  /// that is a cell before the outlet too; else of the own cell.
+  /// The neighbour beside the link's own cell, one step on along the outlet as the link goes, where that is a cell
+  /// before the outlet too; else the own cell.
   std::int32_t beside = 0;
-  /// The cell behind the own one, away from the outlet, and its run; -1 where there is none.
+  /// The cell whose velocity tells whether air leaves: the own one if a face of it is the outlet's, else the one
+  /// beside.
+  std::int32_t judge = 0;
+  std::int8_t out = 0;  // direction of the axis that points out of the cell beside; of faces of cells
+  /// The cell behind the one beside, away from the outlet, and its run; -1 where there is none.
   std::int32_t run_behind = -1;
   std::ptrdiff_t behind = -1;
 };

@@ -91,7 +91,7 @@ Links build_links(const Rows& rows, const LinkGeometry& surface, WallScheme sche
   const auto settle_edges = [&](std::vector<Cut>& cuts) {
     const auto cut_along = [&](int axis, int sign) -> const Cut* {
       for (const Cut& cut : cuts)
-        if (cut.direction <= 6 && !cut.thin && d3q19::velocity[cut.direction][axis] == sign) return &cut;
+        if (cut.direction <= 6 && d3q19::velocity[cut.direction][axis] == sign) return &cut;
       return nullptr;
     };
     for (Cut& cut : cuts) {
@@ -108,9 +108,10 @@ Links build_links(const Rows& rows, const LinkGeometry& surface, WallScheme sche
         const bool moves = is_wall && face->patch >= 0 && surface.boundaries[face->patch].profile;
         const bool ends_outlet =
             own == BoundaryKind::pressure_outlet && is_wall && beside != nullptr && kind_of(*beside) == own;
-        if ((own == BoundaryKind::slip && is_opening(kind)) || (is_opening(own) && moves) || ends_outlet)
+        if ((own == BoundaryKind::slip && is_opening(kind)) || (is_opening(own) && moves) || ends_outlet) {
           cut.patch = face->patch;
-        if (ends_outlet) cut.q = face->q;
+          if (is_wall) cut.q = face->q;
+        }
       }
     }
   };

@@ -46,7 +46,7 @@ std::vector<OutletSource> find_outlet_sources(const Rows& rows, const std::vecto
   std::map<int, std::array<std::size_t, 7>> faces;  // per patch: faces of cells that an outlet closes, per direction
   for (const OpeningLink& link : outlets)
     if (link.direction <= 6) ++faces[link.patch][link.direction];
-  const auto link_of = [&](std::ptrdiff_t slot) {
+  const auto first_link_of = [&](std::ptrdiff_t slot) {
     const auto at = std::lower_bound(outlets.begin(), outlets.end(), slot,
                                      [](const OpeningLink& link, std::ptrdiff_t s) { return link.slot < s; });
     return at != outlets.end() && at->slot == slot ? static_cast<std::int32_t>(at - outlets.begin()) : -1;
@@ -59,17 +59,27 @@ std::vector<OutletSource> find_outlet_sources(const Rows& rows, const std::vecto
   };
   std::vector<OutletSource> sources;
   for (const OpeningLink& link : outlets) {
-    const auto& of_patch = faces[link.patch];
-    const auto out = d3q19::velocity[std::max_element(of_patch.begin() + 1, of_patch.end()) - of_patch.begin()];
-    auto beside = rows.cell(link.slot), behind = beside;
-    for (int d = 0; d < 3; ++d) {
-      if (out[d] == 0) beside[d] += d3q19::velocity[link.direction][d];
-      behind[d] -= out[d];
-    }
-    const std::ptrdiff_t next = rows.active_slot(beside[0], beside[1], beside[2]);
-    const std::int32_t there = next < 0 ? -1 : link_of(next);
+    const std::int32_t own = first_link_of(link.slot);
+    const auto& closed = faces[link.patch];
     OutletSource source;
-    source.beside = there < 0 ? link_of(link.slot) : there;
+    source.out = static_cast<std::int8_t>(std::max_element(closed.begin() + 1, closed.end()) - closed.begin());
+    bool has_face = false;
+    for (std::size_t n = own; n < outlets.size() && outlets[n].slot == link.slot; ++n) {
+      if (outlets[n].direction > 6 || outlets[n].patch != link.patch) continue;
+      if (!has_face || closed[outlets[n].direction] > closed[source.out])
+        source.out = static_cast<std::int8_t>(outlets[n].direction);
+      has_face = true;
+    }
+    const auto& out = d3q19::velocity[source.out];
+    auto beside = rows.cell(link.slot);
+    for (int d = 0; d < 3; ++d)
+      if (out[d] == 0) beside[d] += d3q19::velocity[link.direction][d];
+    const std::ptrdiff_t next = rows.active_slot(beside[0], beside[1], beside[2]);
+    const std::int32_t there = next < 0 ? -1 : first_link_of(next);
+    source.beside = there < 0 ? own : there;
+    source.judge = has_face ? own : source.beside;
+    auto behind = rows.cell(outlets[source.beside].slot);
+    for (int d = 0; d < 3; ++d) behind[d] -= out[d];
     source.behind = rows.active_slot(behind[0], behind[1], behind[2]);
     if (source.behind >= 0) source.run_behind = run_of(source.behind);
     sources.push_back(source);
@@ -117,40 +127,39 @@ std::int64_t apply_outlets(const Air& air, const Drive& drive, const std::vector
                            std::size_t first, std::size_t end, Populations<T>& p) {
   std::int64_t cut = 0;
   const auto& list = air.links.outlets;
-  const std::vector<OutletSource>& sources = air.links.schedule->outlet_sources;
   const double lowest = lowest_outlet(air, drive);
-  for (std::size_t k = first; k < end;) {
-    const std::ptrdiff_t slot = list[k].slot;
-    const Run& run = air.rows.runs()[list[k].run];
-    const double outside = drive.density_excess[list[k].patch];
-    Vec3 u = state[k].velocity;
-    const bool leaves = u.dot(air.normal[list[k].patch]) >= 0.0;
-    const double head = 1.5 * u.squaredNorm();  // its dynamic pressure, as an excess of density
-    if (!leaves && head > outside - lowest) {
-      u *= std::sqrt((outside - lowest) / head);
-      ++cut;
-    }
-    Vec3 slope = Vec3::Zero();  // of the momentum, over one cell
-    if (leaves && sources[k].behind >= 0)
-      slope = (1.0 + state[k].density_excess) * state[k].velocity - momentum_of(air, sources[k], last, p);
-    for (; k < end && list[k].slot == slot; ++k) {
-      const int i = list[k].direction;
-      const double w = d3q19::weight[i];
-      const auto& ci = d3q19::velocity[i];
-      const Vec3 c(ci[0], ci[1], ci[2]);
-      if (leaves) {
-        const std::int32_t beside = sources[k].beside;
-        const double passed =
-            p.departed(air.rows.runs()[list[beside].run], list[beside].slot, d3q19::opposite(i), last);
-        const double drho = state[beside].density_excess;
-        returning(run, list[k], last, p) = static_cast<T>(passed - 3.0 * w * c.dot(slope) + 2.0 * w * (outside - drho));
-      } else {
-        const double cu = u.dot(c);
-        const double dynamic = (1.0 + outside) * (4.5 * cu * cu - 1.5 * u.squaredNorm());
-        returning(run, list[k], last, p) =
-            static_cast<T>(-p.departed(run, slot, i, last) + 2.0 * w * (outside + dynamic));
+  std::ptrdiff_t counted = -1;  // the last cell whose velocity was shortened
+  for (std::size_t k = first, cell = first; k < end; ++k) {
+    const OpeningLink& link = list[k];
+    if (link.slot != list[cell].slot) cell = k;  // `state` is that of a cell's first link
+    const OutletSource& source = air.links.schedule->outlet_sources[k];
+    const int i = link.direction;
+    const auto& ci = d3q19::velocity[i];
+    const Vec3 c(ci[0], ci[1], ci[2]);
+    const double w = d3q19::weight[i], outside = drive.density_excess[link.patch];
+    double back = 0.0;
+    if (state[source.judge].velocity.dot(air.normal[link.patch]) >= 0.0) {
+      const OpeningLink& from = list[source.beside];
+      const OutletAir& there = state[source.beside];
+      const auto& out = d3q19::velocity[source.out];
+      back = p.departed(air.rows.runs()[from.run], from.slot, d3q19::opposite(i), last) +
+             2.0 * w * (outside - there.density_excess);
+      if (source.behind >= 0 && c.dot(Vec3(out[0], out[1], out[2])) > 0.0) {
+        const Vec3 slope = (1.0 + there.density_excess) * there.velocity - momentum_of(air, source, last, p);
+        back -= 3.0 * w * c.dot(slope);
       }
+    } else {
+      Vec3 u = state[cell].velocity;
+      const double head = 1.5 * u.squaredNorm();  // its dynamic pressure, as an excess of density
+      if (head > outside - lowest) {
+        u *= std::sqrt((outside - lowest) / head);
+        if (counted != link.slot) ++cut;
+        counted = link.slot;
+      }
+      const double cu = u.dot(c), dynamic = (1.0 + outside) * (4.5 * cu * cu - 1.5 * u.squaredNorm());
+      back = -p.departed(air.rows.runs()[link.run], link.slot, i, last) + 2.0 * w * (outside + dynamic);
     }
+    returning(air.rows.runs()[link.run], link, last, p) = static_cast<T>(back);
   }
   return cut;
 }

@@ -15,7 +15,8 @@ template <class T>
 void apply_inlets(const Air& air, const Drive& drive, Parity last, std::size_t first, std::size_t end,
                   Populations<T>& p);
 
-/// Per outlet link. An outlet lies across the axis along which it closes most faces of cells.
+/// Per outlet link. At a cell the outlet lies across the axis along which it closes a face of the cell; of several, or
+/// of none, the one along which it closes most faces of cells.
 std::vector<OutletSource> find_outlet_sources(const Rows& rows, const std::vector<OpeningLink>& outlets);
 
 /// The air of a cell before an outlet as its last collision left it.
@@ -32,9 +33,10 @@ void find_outlet_air(const Air& air, Parity last, std::size_t first, std::size_t
 /// Outlet links [first, end), which divide no cell; `state` of every cell is known. Where the air leaves, what comes
 /// back is what the cells before the outlet hold, as if the flow went on beyond it with the slope that its momentum
 /// rho u has over the last two cells, but for its pressure:
-///   f_in(x) = f_in(x + t) + 3 w c_in.(rho u(x) - rho u(x - n)) + 2 w (rho_out - rho(x + t)),
-/// n one step out, f_in(x + t) having left the cell beside (OutletSource), so that the outlet lies half-way with
-/// rho_out. Exact for parallel shear flow at any tau; docs/decisions/0026-what-comes-back-at-outlets.md.
+///   f_in(x) = f_in(x + t) + 3 w (c.n) c_in.(rho u(x + t) - rho u(x + t - n)) + 2 w (rho_out - rho(x + t)),
+/// n one step out, c.n 1 but along the risers of a staircase, f_in(x + t) having left the cell beside (OutletSource),
+/// so that the outlet lies half-way with rho_out. Exact for parallel shear flow at any tau;
+/// docs/decisions/0026-what-comes-back-at-outlets.md.
 /// Where it enters, anti-bounce-back (Ginzburg, Verhaeghe & d'Humieres, Commun. Comput. Phys. 3, 427 (2008)):
 ///   f_in = -f_out + 2 w rho_out (1 + 9/2 (c.u)^2 - 3/2 u^2),
 /// u that of the cell, shortened until its dynamic pressure is at most what this outlet lies above the lowest one,

@@ -243,7 +243,9 @@ void restore(const Checkpoint& checkpoint, State& state) {
 std::uint64_t fingerprint(const State& state) {
   if (!state.air) return 0;
   const lbm::Air& air = *state.air;
-  std::vector<std::int64_t> numbers{static_cast<std::int64_t>(air.rows.slots()),
+  // Raised when the laws at walls or openings change, so that a program does not go on with another one's run.
+  constexpr std::int64_t laws = 1;
+  std::vector<std::int64_t> numbers{laws, static_cast<std::int64_t>(air.rows.slots()),
                                     static_cast<std::int64_t>(air.rows.active_cells())};
   for (const auto& run : air.rows.runs()) {
     numbers.insert(numbers.end(), {run.first, run.x, run.y, run.z, run.count});
@@ -252,6 +254,8 @@ std::uint64_t fingerprint(const State& state) {
     for (const auto& link : *list) numbers.insert(numbers.end(), {link.slot, link.direction, link.patch});
   std::uint64_t hash = 0;
   hash_in(numbers, hash);
+  const auto& origin = air.rows.origin();
+  hash_in(std::vector<double>(origin.data(), origin.data() + 3), hash);
   hash_in(air.links.partner, hash);
   hash_in(air.gradients.viscosity_wanted ? air.gradients.length2 : air.les, hash);  // what does not change with time
   return hash;

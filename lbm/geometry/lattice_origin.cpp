@@ -2,38 +2,55 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 namespace puffin::lbm::geometry {
 
-double lattice_shift(const TriangleTree& tree, double dx, int axis) {
-  constexpr double same = 1e-3;  // of a cell
-  struct Plane {
-    double phase, area;  // place above the low end in cells, less whole ones
-  };
+double lattice_shift(const TriangleTree& tree, double dx, int axis, const std::vector<char>& flush) {
+  constexpr int bins = 10000, reach = 200, same = 10;  // per cell; where a plane no longer counts; those that are one
   const TriangleMesh& mesh = tree.mesh();
-  std::vector<Plane> planes;
-  double at_low_end = 0.0;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const auto [low, high] =
-        std::minmax({mesh.corner(static_cast<int>(t), 0)[axis], mesh.corner(static_cast<int>(t), 1)[axis],
-                     mesh.corner(static_cast<int>(t), 2)[axis]});
-    if (high - low > same * dx) continue;
-    const double place = (0.5 * (low + high) - tree.min()[axis]) / dx, area = mesh.area(static_cast<int>(t));
-    double phase = place - std::floor(place);
-    if (phase > 1.0 - same) phase -= 1.0;  // rounding below a whole number
-    if (phase < same) at_low_end += area;
-    planes.push_back({phase, area});
+  // Area of the planes by their place above the low end less whole cells, and that times the distance to the bin.
+  std::vector<double> area(bins, 0.0), moment(bins, 0.0);
+  double whole = 0.0;
+  bool some_flush = false;
+  for (std::size_t n = 0; n < mesh.triangles.size(); ++n) {
+    const int t = static_cast<int>(n);
+    whole += mesh.area(t);
+    const auto [low, high] = std::minmax({mesh.corner(t, 0)[axis], mesh.corner(t, 1)[axis], mesh.corner(t, 2)[axis]});
+    if (high - low > 1e-3 * dx) continue;
+    const bool decides = !flush.empty() && flush[n];
+    if (some_flush && !decides) continue;
+    if (decides && !some_flush) {
+      some_flush = true;
+      std::fill(area.begin(), area.end(), 0.0);
+      std::fill(moment.begin(), moment.end(), 0.0);
+    }
+    const double place = (0.5 * (low + high) - tree.min()[axis]) / dx * bins, bin = std::round(place);
+    const int b = static_cast<int>(std::fmod(bin, bins));
+    area[b] += mesh.area(t);
+    moment[b] += mesh.area(t) * (place - bin);
   }
-  std::sort(planes.begin(), planes.end(), [](const Plane& a, const Plane& b) { return a.phase < b.phase; });
-  double best = 0.0, most = 1.01 * at_low_end, sum = 0.0;
-  for (std::size_t first = 0, end = 0; first < planes.size(); sum -= planes[first++].area) {
-    for (; end < planes.size() && planes[end].phase < planes[first].phase + same; ++end) sum += planes[end].area;
-    if (planes[first].phase < same || sum <= most) continue;
+  const auto score = [&](int centre) {
+    double sum = 0.0;
+    for (int k = -reach; k <= reach; ++k)
+      sum += (1.0 - std::abs(k) / static_cast<double>(reach)) * area[(centre + k + bins) % bins];
+    return sum;
+  };
+  int best = 0;
+  double most = std::max(score(0), some_flush ? 0.0 : 0.02 * whole);
+  for (int b = 0; b < bins; ++b) {
+    if (area[b] == 0.0) continue;
+    const double sum = score(b);
+    if (sum <= 1.01 * most) continue;
+    best = b;
     most = sum;
-    best = 0.5 * (planes[first].phase + planes[end - 1].phase);
   }
-  return best == 0.0 ? 0.0 : 1.0 - best;
+  if (best <= same || best >= bins - same) return 0.0;
+  double sum = 0.0, at = 0.0;
+  for (int k = -same; k <= same; ++k) {
+    sum += area[best + k];
+    at += area[best + k] * (best + k) + moment[best + k];
+  }
+  return 1.0 - at / sum / bins;
 }
 
 }  // namespace puffin::lbm::geometry

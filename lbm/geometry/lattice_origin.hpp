@@ -1,15 +1,18 @@
 #pragma once
 // Where the lattice lies within a surface: so that most of its flat faces are faces of cells.
 
+#include <vector>
+
 #include "lbm/geometry/triangle_tree.hpp"
 
 namespace puffin::lbm::geometry {
 
 /// Share of a cell, in [0, 1), by which the first face of cells lies below the low end of the surface along `axis`.
 ///
-/// Of all planes of triangles across the axis, those that are a whole number of cells apart are taken together, and the
-/// set with the largest area [m^2] is to lie on faces of cells; the one that holds the low end, with 0, unless another
-/// is larger by a hundredth. Places count as equal within 1e-3 dx. 0 if there are no such triangles.
-double lattice_shift(const TriangleTree& tree, double dx, int axis);
+/// Planes of triangles across the axis that are a whole number of cells apart count together, with their area; others
+/// with less of theirs the farther they are off, none from 0.02 dx on. The largest such set comes to lie on faces of
+/// cells. The low end wins against sets that are not larger by a hundredth, and where no set is a fiftieth of the
+/// surface. `flush`: per triangle, 1 = alone decides where there are such along the axis; empty: none.
+double lattice_shift(const TriangleTree& tree, double dx, int axis, const std::vector<char>& flush = {});
 
 }  // namespace puffin::lbm::geometry

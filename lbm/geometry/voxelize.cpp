@@ -28,12 +28,15 @@ Voxels make_box(const TriangleTree& tree, double dx, const VoxelizeOptions& opti
   if (!options.openings.empty() && options.openings.size() != tree.mesh().triangles.size()) {
     throw std::invalid_argument("error: openings needs one entry a triangle");
   }
+  if (!options.flush.empty() && options.flush.size() != tree.mesh().triangles.size()) {
+    throw std::invalid_argument("error: flush needs one entry a triangle");
+  }
   Voxels box;
   box.dx = dx;
   double cells = 1.0;
   for (int d = 0; d < 3; ++d) {
     const double length = tree.max()[d] - tree.min()[d];
-    const double shift = options.periodic[d] ? 0.0 : lattice_shift(tree, dx, d);
+    const double shift = options.periodic[d] ? 0.0 : lattice_shift(tree, dx, d, options.flush);
     box.origin[d] = tree.min()[d] + (0.5 - shift) * dx;
     const double exact = length / dx + shift, nearest = std::max(1.0, std::round(exact));
     // A length that is a whole number of cells but for single precision coordinates needs no further cell.

@@ -13,6 +13,7 @@ namespace puffin::lbm::geometry {
 struct VoxelizeOptions {
   std::array<bool, 3> periodic{false, false, false};  // the box in these directions is a whole number of cells
   std::vector<char> openings;                         // per triangle: 1 = part of an opening; empty: keep every cell
+  std::vector<char> flush;                            // per triangle: 1 = should be faces of cells; empty: none
   std::size_t most_cells = std::size_t{1} << 32;      // refuse boxes with more cells than this
 };
 
@@ -35,9 +36,9 @@ struct Pockets {
 /// with holes or turned facets is closed by caps first, whose own winding number is taken off again near them
 /// (closing_caps.hpp), so that the generalised winding number of the given triangles decides.
 ///
-/// Throws std::invalid_argument for dx <= 0, a box beyond most_cells, openings of the wrong length, or a periodic
-/// direction whose box is no whole number of cells (the nearest valid dx is named); GeometryError if no centre is
-/// inside or an opening is given and no fluid cell lies at any.
+/// Throws std::invalid_argument for dx <= 0, a box beyond most_cells, openings or flush of the wrong length, or a
+/// periodic direction whose box is no whole number of cells (the nearest valid dx is named); GeometryError if no centre
+/// is inside or an opening is given and no fluid cell lies at any.
 Voxels voxelize(const TriangleTree& tree, double dx, const VoxelizeOptions& options = {}, Pockets* dropped = nullptr);
 
 /// Turns fluid cells solid that are not connected (through faces; across periodic faces too) to a fluid cell within one

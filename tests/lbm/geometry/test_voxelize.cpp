@@ -62,8 +62,14 @@ TEST(Voxelize, MostOfTheFlatFacesAreFacesOfCells) {
   EXPECT_LE(v.origin[2] - 0.5 * v.dx, 0.0);
   EXPECT_EQ(v.size, (std::array<int, 3>{30, 5, 11}));
   EXPECT_EQ(disagreements(tree, v, 1e-9), 0u);
-  // Along a periodic direction the ends are what matters.
+  // What has to be flush decides alone: the floor of the pocket.
   VoxelizeOptions options;
+  options.flush.assign(tree.mesh().triangles.size(), 0);
+  for (std::size_t t = 0; t < options.flush.size(); ++t)
+    options.flush[t] = std::abs(tree.mesh().area_vector(static_cast<int>(t)).normalized()[2]) > 0.5 &&
+                       tree.mesh().corner(static_cast<int>(t), 0)[2] < 1e-9;
+  EXPECT_NEAR(voxelize(tree, 0.1, options).origin[2], 0.05, 1e-12);
+  // Along a periodic direction the ends are what matters.
   options.periodic[2] = true;
   EXPECT_THROW(voxelize(tree, 0.1, options), std::invalid_argument);
 }
