@@ -9,6 +9,7 @@
 
 #include "cases/compressibility.hpp"
 #include "cases/inlet_profile.hpp"
+#include "cases/opening.hpp"
 #include "cases/room.hpp"
 #include "cases/undriven_speed.hpp"
 #include "cases/units.hpp"
@@ -131,6 +132,8 @@ Assessment assess(const Case& given, const Surface& s) {
     const double area = s.area_of(b.patch), speed = largest_mean_speed(alone, c.stop.time, area_of);
     const double diameter = 4.0 * area / perimeter_of(s, b.patch);
     a.inlets.push_back({b.patch, area, speed, diameter, reynolds(c.air, speed, diameter)});
+    const int patch = s.patches.find(b.patch);
+    profile_of(b, s, patch, opening_of(c, s, patch));  // refuses a profile that does not fit the opening
   }
   if (c.air.model == AirModel::lbm) {
     require_room(c, s, std::numeric_limits<double>::infinity());
