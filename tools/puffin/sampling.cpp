@@ -34,13 +34,17 @@ PointReading read_cell(const cases::Simulation& s, std::ptrdiff_t slot) {
 DropReader::DropReader(const cases::Simulation& s) {
   if (!s.state.air) return;
   const auto& air = *s.state.air;
-  // One cell inside the boundary cells: the reading is not that of the condition itself.
   const auto collect = [&](const std::vector<lbm::OpeningLink>& links, std::vector<Cell>& cells) {
     for (const auto& link : links) {
       if (link.direction > 6) continue;  // axis links only: each face cell once
-      const std::ptrdiff_t inner =
-          link.slot + lbm::neighbour_offset(air.rows.runs()[link.run], lbm::d3q19::opposite(link.direction));
-      cells.push_back({air.rows.is_active(inner) ? inner : link.slot, link.patch});
+      const auto& c = lbm::d3q19::velocity[link.direction];
+      const auto own = air.rows.cell(link.slot);
+      const auto inside = [&](int n, std::ptrdiff_t otherwise) {
+        const std::ptrdiff_t slot = air.rows.active_slot(own[0] - n * c[0], own[1] - n * c[1], own[2] - n * c[2]);
+        return slot < 0 ? otherwise : slot;
+      };
+      const std::ptrdiff_t second = inside(1, link.slot);
+      cells.push_back({second, second == link.slot ? second : inside(2, second), link.patch});
     }
     std::sort(cells.begin(), cells.end(), [](const Cell& a, const Cell& b) { return a.slot < b.slot; });
     cells.erase(std::unique(cells.begin(), cells.end(), [](const Cell& a, const Cell& b) { return a.slot == b.slot; }),
@@ -65,24 +69,40 @@ DropReading DropReader::read(const cases::Simulation& s) const {
     reading.flow_rate += std::max(0.0, in) * s.state.scale.flow_rate();
   }
   if (!has_both()) return reading;
-  double p_in = 0.0, p_out = 0.0, flux = 0.0, carried = 0.0, cells_in = 0.0, cells_out = 0.0;
+  struct Layer {
+    double pressure = 0.0, flux = 0.0, carried = 0.0;
+  };
+  Layer second, third;  // cells from the inlets
+  double p_out = 0.0, cells_in = 0.0, cells_out = 0.0;
   for (const auto* cells : {&inlet_, &outlet_})
     for (const Cell& c : *cells) {
-      const PointReading r = read_cell(s, c.slot);
+      const auto& held = s.models.patches[c.patch].pressure;
+      const auto at = [&](std::ptrdiff_t slot) {
+        PointReading r = read_cell(s, slot);
+        if (held) r.pressure = held(s.state.time);
+        return r;
+      };
       if (enters[c.patch] == 0) {
-        p_out += r.pressure, cells_out += 1.0;
+        p_out += at(c.slot).pressure, cells_out += 1.0;
         continue;
       }
-      const double inward = std::max(0.0, -r.velocity.dot(s.state.air->normal[c.patch]));
-      p_in += r.pressure, cells_in += 1.0;
-      flux += inward;
-      carried += inward * total_pressure(s, r);
+      cells_in += 1.0;
+      for (Layer* layer : {&second, &third}) {
+        const PointReading r = at(held || layer == &second ? c.slot : c.next);
+        const double inward = std::max(0.0, -r.velocity.dot(s.state.air->normal[c.patch]));
+        layer->pressure += r.pressure;
+        layer->flux += inward;
+        layer->carried += inward * total_pressure(s, r);
+      }
     }
   if (cells_in == 0.0 || cells_out == 0.0) return reading;  // nothing moves yet
-  p_in /= cells_in;
+  const auto at_plane = [](double second_cell, double third_cell) { return 2.5 * second_cell - 1.5 * third_cell; };
+  const double p_in = at_plane(second.pressure, third.pressure) / cells_in;
+  const bool flows = second.flux > 0.0 && third.flux > 0.0;
   p_out /= cells_out;
   reading.static_drop = p_in - p_out;
-  reading.total_to_static_drop = (flux > 0.0 ? carried / flux : p_in) - p_out;
+  reading.total_to_static_drop =
+      (flows ? at_plane(second.carried / second.flux, third.carried / third.flux) : p_in) - p_out;
   return reading;
 }
 

@@ -57,8 +57,10 @@ struct DropReading {
   double total_to_static_drop = 0.0;  // flux-weighted total pressure at the inlets minus static at the outlets [Pa]
 };
 
-/// Reads pressure drops on the cells beside the openings; which cells these are is found once. Where no boundary gives
-/// the flow, the openings at which air enters at the moment are the inlets, and what enters is the flow rate.
+/// Reads pressure drops between the openings' planes: at a pressure outlet the pressure that it holds, at a velocity
+/// inlet a straight line through the second and third cell, as the first is the condition's own. Which cells these are
+/// is found once. Where no boundary gives the flow, the openings at which air enters at the moment are the inlets, and
+/// what enters is the flow rate.
 class DropReader {
  public:
   explicit DropReader(const cases::Simulation& s);
@@ -67,7 +69,7 @@ class DropReader {
 
  private:
   struct Cell {
-    std::ptrdiff_t slot;
+    std::ptrdiff_t slot, next;  // the second cell from the opening, and the third; the one before where it is missing
     int patch;
   };
   std::vector<Cell> inlet_, outlet_;

@@ -43,6 +43,11 @@ TEST_F(AirScene, PoiseuilleProfilePressureFlowAndForceAreExactToSecondOrder) {
   // Flux-weighted rho u^2/2 of a parabola: 54/35 of that of the mean.
   EXPECT_NEAR(last(planes, "plane", "first", "total_pressure") - last(planes, "plane", "first", "static_pressure"),
               54.0 / 35.0 * 0.5 * 1.204 * 0.25, 0.01 * 0.232);
+  // From plane to plane, 3 mm; the total pressure adds the head. Read a cell inside both ends it was 6 % less.
+  const auto history = table("channel/history.csv");
+  const double drop = history.numbers("static_drop").back();
+  EXPECT_NEAR(drop, slope * 3e-3, 0.01 * slope * 3e-3);
+  EXPECT_NEAR(history.numbers("total_to_static_drop").back() - drop, 54.0 / 35.0 * 0.5 * 1.204 * 0.25, 0.01 * 0.232);
   // Friction on both walls over 3 mm = pressure drop times the section. On each wall a diagonal link of the first and
   // one of the last of the 48 cells leave through the openings, which are no wall. Not counted are the friction of
   // those links, together that of one cell, and the pressure on them: 2/36 of the difference drho of the densities of

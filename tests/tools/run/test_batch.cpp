@@ -19,7 +19,8 @@ TEST_F(BatchStudy, AFailedCaseFailsAloneAndIsTriedAgainOnlyWhenAsked) {
   file(
       "study.toml",
       "base = \"case.toml\"\n[[case]]\nname = \"good\"\n[[case]]\nname = \"misspelt\"\nset = { \"numerics.dxx\" = 1 }\n"
-      "[[case]]\nname = \"diverges\"\nset = { \"numerics.time_step\" = 8e-4, \"stop.time\" = 0.4 }\n[[case]]\nname = "
+      "[[case]]\nname = \"diverges\"\nset = { \"numerics.reference_speed\" = 0.05, \"air.viscosity\" = 1e-8, "
+      "\"stop.time\" = 0.4 }\n[[case]]\nname = "
       "\"fast\"\n"
       "set = { \"air.boundary[0].velocity\" = \"8 m/s\" }\n");
   EXPECT_EQ(batch("--jobs 2 --json"), 8) << text("log.txt");

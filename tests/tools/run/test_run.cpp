@@ -74,8 +74,8 @@ time = "2 ms"
 }
 
 TEST_F(Run, ARunThatDivergesEndsWith5AndSaysWhere) {
-  // A step 80 times longer than the inlet's speed allows: 8 in lattice units, and 1 after three retreats.
-  EXPECT_EQ(run("bad", "--set numerics.time_step=64e-6"), 5);
+  // A reference speed of an eightieth of the inlet's: 8 in lattice units, and 1 after three retreats.
+  EXPECT_EQ(run("bad", "--set numerics.reference_speed=\"0.8 m/s\""), 5);
   const output::Summary s = output::read_summary(folder_ / "bad" / "summary.json");
   EXPECT_EQ(s.state, "diverged");
   EXPECT_NE(s.message.find("the first at ["), std::string::npos) << s.message;
@@ -87,7 +87,7 @@ TEST_F(Run, ARunThatDivergesEndsWith5AndSaysWhere) {
 
 // 0.5 in lattice units diverges, an eighth of that step does not.
 TEST_F(Run, ARetreatWithASmallerStepSavesARun) {
-  ASSERT_EQ(run("saved", "--set numerics.time_step=4e-6 --until 6ms"), 0) << text("saved.log");
+  ASSERT_EQ(run("saved", "--set numerics.reference_speed=\"12.5 m/s\" --until 6ms"), 0) << text("saved.log");
   const output::Summary s = output::read_summary(folder_ / "saved" / "summary.json");
   EXPECT_EQ(s.state, "finished");
   ASSERT_GE(s.warnings.size(), 1U);

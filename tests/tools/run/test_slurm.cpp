@@ -49,7 +49,7 @@ TEST_F(SlurmStudy, AnArrayGivesTheSameTablesAsTheBatch) {
 TEST_F(SlurmStudy, ATaskThatFailsFailsAloneAndARefusalIsTold) {
   file("study.toml",
        "base = \"case.toml\"\n[[case]]\nname = \"good\"\n[[case]]\nname = \"bad\"\n"
-       "set = { \"numerics.time_step\" = 8e-4, \"stop.time\" = 0.4 }\n");
+       "set = { \"numerics.reference_speed\" = 0.05, \"air.viscosity\" = 1e-8, \"stop.time\" = 0.4 }\n");
   EXPECT_EQ(slurm_batch(""), 8) << text("log.txt");
   EXPECT_TRUE(fs::exists(folder_ / "out/good/seed-1/report.html"));
   file("bin/sbatch", "#!/bin/sh\necho 'sbatch: error: invalid partition specified: night'\nexit 1\n");
