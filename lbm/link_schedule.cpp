@@ -22,19 +22,6 @@ std::vector<std::int32_t> chunk_of_runs(const Rows& rows) {
   return chunk;
 }
 
-/// Run that holds an active slot: runs lie in memory in their order.
-std::size_t run_of(const Rows& rows, std::ptrdiff_t slot) {
-  const auto after = std::upper_bound(rows.runs().begin(), rows.runs().end(), slot,
-                                      [](std::ptrdiff_t s, const Run& run) { return s < run.first; });
-  return static_cast<std::size_t>(after - rows.runs().begin()) - 1;
-}
-
-bool is_before_outlet(const Links& links, std::ptrdiff_t slot) {
-  const auto at = std::lower_bound(links.outlets.begin(), links.outlets.end(), slot,
-                                   [](const OpeningLink& link, std::ptrdiff_t s) { return link.slot < s; });
-  return at != links.outlets.end() && at->slot == slot;
-}
-
 struct Needs {
   std::int32_t from = 0, last = 0;  // chunks
 };
@@ -55,7 +42,8 @@ Needs needs_of(const Rows& rows, const Links& links, const std::vector<std::int3
         needs.last = std::max(needs.last, other);
       } else {  // a solid cell has no weight; the image of an active one has its value after the periodic faces
         const auto c = rows.cell(behind);
-        last_of_all = last_of_all || rows.active_slot(c[0], c[1], c[2]) >= 0 || is_before_outlet(links, wall.first + n);
+        last_of_all = last_of_all || rows.active_slot(c[0], c[1], c[2]) >= 0 ||
+                      first_outlet_link(links.outlets, wall.first + n) >= 0;
       }
     }
   }
@@ -145,6 +133,12 @@ void add_group(const Rows& rows, const Links& links, const std::vector<Item>& ce
 }
 
 }  // namespace
+
+std::int32_t run_of(const Rows& rows, std::ptrdiff_t slot) {  // runs lie in memory in their order
+  const auto after = std::upper_bound(rows.runs().begin(), rows.runs().end(), slot,
+                                      [](std::ptrdiff_t s, const Run& run) { return s < run.first; });
+  return static_cast<std::int32_t>(after - rows.runs().begin()) - 1;
+}
 
 Waiting::Range Waiting::ready(int chunk, int begin) const {
   const auto from = needs_from.begin();

@@ -60,6 +60,9 @@ struct LinkSchedule {
   std::vector<OutletSource> outlet_sources;      // per outlet link
 };
 
+/// Run that holds an active slot.
+std::int32_t run_of(const Rows& rows, std::ptrdiff_t slot);
+
 LinkSchedule schedule_links(const Rows& rows, const Links& links);
 
 }  // namespace puffin::lbm

@@ -42,24 +42,19 @@ void apply_inlets(const Air& air, const Drive& drive, Parity last, std::size_t f
   }
 }
 
+std::int32_t first_outlet_link(const std::vector<OpeningLink>& outlets, std::ptrdiff_t slot) {
+  const auto at = std::lower_bound(outlets.begin(), outlets.end(), slot,
+                                   [](const OpeningLink& link, std::ptrdiff_t s) { return link.slot < s; });
+  return at != outlets.end() && at->slot == slot ? static_cast<std::int32_t>(at - outlets.begin()) : -1;
+}
+
 std::vector<OutletSource> find_outlet_sources(const Rows& rows, const std::vector<OpeningLink>& outlets) {
   std::map<int, std::array<std::size_t, 7>> faces;  // per patch: faces of cells that an outlet closes, per direction
   for (const OpeningLink& link : outlets)
     if (link.direction <= 6) ++faces[link.patch][link.direction];
-  const auto first_link_of = [&](std::ptrdiff_t slot) {
-    const auto at = std::lower_bound(outlets.begin(), outlets.end(), slot,
-                                     [](const OpeningLink& link, std::ptrdiff_t s) { return link.slot < s; });
-    return at != outlets.end() && at->slot == slot ? static_cast<std::int32_t>(at - outlets.begin()) : -1;
-  };
-  const auto run_of = [&](std::ptrdiff_t slot) {
-    const auto& runs = rows.runs();
-    const auto next = std::upper_bound(runs.begin(), runs.end(), slot,
-                                       [](std::ptrdiff_t s, const Run& run) { return s < run.first; });
-    return static_cast<std::int32_t>(next - runs.begin()) - 1;
-  };
   std::vector<OutletSource> sources;
   for (const OpeningLink& link : outlets) {
-    const std::int32_t own = first_link_of(link.slot);
+    const std::int32_t own = first_outlet_link(outlets, link.slot);
     const auto& closed = faces[link.patch];
     OutletSource source;
     source.out = static_cast<std::int8_t>(std::max_element(closed.begin() + 1, closed.end()) - closed.begin());
@@ -75,13 +70,13 @@ std::vector<OutletSource> find_outlet_sources(const Rows& rows, const std::vecto
     for (int d = 0; d < 3; ++d)
       if (out[d] == 0) beside[d] += d3q19::velocity[link.direction][d];
     const std::ptrdiff_t next = rows.active_slot(beside[0], beside[1], beside[2]);
-    const std::int32_t there = next < 0 ? -1 : first_link_of(next);
+    const std::int32_t there = next < 0 ? -1 : first_outlet_link(outlets, next);
     source.beside = there < 0 ? own : there;
     source.judge = has_face ? own : source.beside;
     auto behind = rows.cell(outlets[source.beside].slot);
     for (int d = 0; d < 3; ++d) behind[d] -= out[d];
     source.behind = rows.active_slot(behind[0], behind[1], behind[2]);
-    if (source.behind >= 0) source.run_behind = run_of(source.behind);
+    if (source.behind >= 0) source.run_behind = run_of(rows, source.behind);
     sources.push_back(source);
   }
   return sources;

@@ -15,6 +15,9 @@ template <class T>
 void apply_inlets(const Air& air, const Drive& drive, Parity last, std::size_t first, std::size_t end,
                   Populations<T>& p);
 
+/// Number of the first link of a cell in a list sorted by slot, -1 if it has none.
+std::int32_t first_outlet_link(const std::vector<OpeningLink>& outlets, std::ptrdiff_t slot);
+
 /// Per outlet link. At a cell the outlet lies across the axis along which it closes a face of the cell; of several, or
 /// of none, the one along which it closes most faces of cells.
 std::vector<OutletSource> find_outlet_sources(const Rows& rows, const std::vector<OpeningLink>& outlets);
