@@ -83,7 +83,7 @@ TEST(WallForce, ExcessIsWhatCellsHaveBeyondTheWalls) {
 }
 
 // Plates between two openings: the exact profile fulfils both pressures, so the flow is dp h^2/(12 nu L) though its
-// dynamic pressure is a fifth of dp. Half-way reflection moves the profile by (16 L - 3)/12 of its curvature, L =
+// dynamic pressure is a fifth of dp. Half-way reflection moves the profile by (16 L - 3)/24 of its curvature, L =
 // (tau - 1/2)^2: 1.2 % less flow here; the sum over 8 cells has 0.8 % more than the mean; the square of the speed
 // (0.05) stands for 0.8 %. It was 19 % less while the air that entered paid twice its dynamic pressure, and 1.6 to 2.3
 // % more while links through the edge of wall and outlet were the outlet's.
