@@ -192,6 +192,7 @@ Patches assign_patches(const TriangleMesh& mesh, const std::vector<PatchSelectio
   const Adjacency adjacency(mesh);
   Patches patches;
   patches.of_triangle.assign(mesh.triangles.size(), -1);
+  std::vector<char> found;  // per name: its selection found triangles
   std::string errors;
   auto complain = [&](const std::string& name, const std::string& what) {
     errors += (errors.empty() ? "error: patch '" : "\nerror: patch '") + name + "': " + what;
@@ -204,6 +205,7 @@ Patches assign_patches(const TriangleMesh& mesh, const std::vector<PatchSelectio
     const int patch = static_cast<int>(patches.names.size());
     patches.names.push_back(selection.name);
     const Outcome chosen = select(mesh, adjacency, selection.select);
+    found.push_back(chosen.error.empty());
     if (!chosen.error.empty()) complain(selection.name, chosen.error);
     std::size_t shared = 0;
     int other = -1;
@@ -228,7 +230,7 @@ Patches assign_patches(const TriangleMesh& mesh, const std::vector<PatchSelectio
     if (same_name >= 0) ++left_over[same_name];
   }
   for (std::size_t p = 0; p < selected; ++p) {
-    if (left_over[p] > 0) {
+    if (found[p] && left_over[p] > 0) {
       complain(patches.names[p], "the file has a solid of this name with " + std::to_string(left_over[p]) +
                                      " triangles outside the selection; select solid:" + patches.names[p] +
                                      " or give the patch another name");

@@ -124,5 +124,11 @@ TEST(Patches, ASolidThatBearsASelectionsNameButReachesBeyondItIsRefused) {
   EXPECT_NE(complaint(mesh, {{"inlet", "plane:x-min"}}).find("triangles outside the selection"), std::string::npos);
 }
 
+TEST(Patches, OfASelectionThatFailedNothingElseIsSaid) {
+  const std::string said = complaint(duct(), {{"inlet", "solid:inlett"}});  // the solid 'inlet' is in the file
+  EXPECT_NE(said.find("there is no solid 'inlett'"), std::string::npos) << said;
+  EXPECT_EQ(said.find("outside the selection"), std::string::npos) << said;
+}
+
 }  // namespace
 }  // namespace puffin::lbm::geometry
