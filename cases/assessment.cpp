@@ -55,7 +55,7 @@ double output_of(const Case& c, const Assessment& a, const Surface& s) {
   return most * cells_in_box(s, a.lattice->dx);
 }
 
-/// Nine runs of devices took 0.93 to 1.5 times as much (docs/results/reliability/memory-said.csv); `puffin estimate` is
+/// Nine runs of devices took 0.94 to 1.5 times as much (docs/results/reliability/memory-said.csv); `puffin estimate` is
 /// nearer.
 double memory_of(const Case& c, const Assessment& a, const Surface& s) {
   constexpr double program = 75e6, triangle = 400.0,
