@@ -24,6 +24,8 @@ struct Skip {
 };
 /// Of numerics.lattice_speed: what all scenes of `puffin bench stability` run at.
 inline constexpr double default_lattice_speed = 0.10;
+/// [cells a step] Beyond it no scheme here is stable.
+inline constexpr double largest_lattice_speed = 0.3;
 struct Numerics {
   std::optional<double> dx;               // [m]; exactly one of dx and cells is given
   std::optional<std::int64_t> cells;      // wanted number of fluid cells: dx = cbrt(volume / cells)

@@ -155,11 +155,10 @@ class Checks {
     else if (n.steps < least_steps)
       say("stop.time", "comes within a thousandth of the first step, " + step + ", as the air reaches only " +
                            reference + " until then: check its unit, or give numerics.reference_speed");
-    constexpr double most_cells = 0.3;
     const double cells = speed * n.dt / n.dx;
-    if (c_.numerics.time_step == TimeStepRule::given && cells > most_cells)
-      say("numerics.time_step", "lets air of " + reference + " cross " + four_digits(cells) +
-                                    " cells a step; beyond 0.3 no scheme here is stable: take " +
+    if (c_.numerics.time_step == TimeStepRule::given && cells > largest_lattice_speed)
+      say("numerics.time_step", "lets air of " + reference + " cross " + four_digits(cells) + " cells a step; beyond " +
+                                    four_digits(largest_lattice_speed) + " no scheme here is stable: take " +
                                     format_quantity(n.dt * 0.1 / cells, unit::time) + " (0.1 cells) or \"fixed\"");
   }
 

@@ -103,8 +103,9 @@ class Checks {
   void air() {
     const Air& a = c_.air;
     const Numerics& n = c_.numerics;
-    if (n.lattice_speed > 0.3)
-      say("numerics.lattice_speed", "beyond 0.3 no scheme here is stable; 0.05 to 0.15 is usual");
+    if (n.lattice_speed > largest_lattice_speed)
+      say("numerics.lattice_speed", "beyond " + format_quantity(largest_lattice_speed, unit::number) +
+                                        " no scheme here is stable; 0.05 to 0.15 is usual");
     if (a.viscosity == 0.0 && c_.carriers && c_.carriers->drag != Drag::none)
       say("air.viscosity", "is 0, but the drag of carriers needs one; give a viscosity or carriers.drag = \"none\"");
     if (n.hrr_sigma > 1.0) say("numerics.hrr_sigma", "is a share, at most 1; 0.98 is usual and 1 is rr3");
