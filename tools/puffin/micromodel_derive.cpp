@@ -97,20 +97,6 @@ std::vector<double> default_speeds(double threshold) {
   return speeds;
 }
 
-struct Mechanism {
-  Scene scene;
-  std::vector<DerivedPoint> points;  // all angles
-  std::vector<DerivedPoint> fitted;  // head on, fines not crushed
-  PowerFit detach, attach;
-  double half = 0.0;
-};
-
-/// Elastic overlaps beyond the fine's radius are no contacts any more; where walls yield, a fine can be pressed in
-/// whole.
-bool sound(const DerivedPoint& p, const Scene& s) {
-  return p.deepest < (std::isfinite(s.surface.wall.yield_pressure) ? 2.0 : 1.0);
-}
-
 Mechanism derive(const DeriveArguments& a, Partner target) {
   Mechanism m;
   m.scene = scene_of(a, target);
@@ -136,78 +122,6 @@ Mechanism derive(const DeriveArguments& a, Partner target) {
   return m;
 }
 
-std::string constants_text(const PowerFit& fit) {
-  std::string out = "Power law in two branches, fitted to the points head on:\n";
-  for (std::size_t k = 0; k < 5; ++k) {
-    char line[120];
-    std::snprintf(line, sizeof line, "A%zu = %.6g (95 %%: %.4g to %.4g)\n", k, fit.A[k].value, fit.A[k].low,
-                  fit.A[k].high);
-    out += line;
-  }
-  char line[120];
-  const micromodels::Jump jump = micromodels::jump(fit.law());
-  std::snprintf(line, sizeof line, "rms misfit %.2f errors (of the mean, or 2 %% of the value); jump at A2: %.4g",
-                fit.rms, jump.height);
-  return out + line;
-}
-
-std::string comment_of(const DeriveArguments& a, const Mechanism& m, const PowerFit& fit, bool detach) {
-  double seconds = 0.0;
-  int impacts = 0;
-  for (const auto& p : m.points) seconds += p.seconds, impacts += p.impacts;
-  char line[300];
-  std::snprintf(line, sizeof line,
-                "%zu speeds head on, %d seeded impacts each where the law is steep; %d impacts in all, %.0f s of wall "
-                "clock.\n",
-                m.fitted.size(), a.impacts, impacts, seconds);
-  std::string out = line + constants_text(fit);
-  if (detach) {
-    std::snprintf(line, sizeof line,
-                  "\nA fit of the even seeds says what the odd seeds found to within %.3f of the largest fraction.",
-                  m.half);
-    out += line;
-  }
-  return out;
-}
-
-void write_table(const std::filesystem::path& file, const Mechanism& m) {
-  output::CsvFile csv(file, {"speed", "angle", "fraction", "error", "attached", "attached_error", "rolled",
-                             "redeposited", "impacts", "rebound", "deepest", "peak"});
-  for (const auto& p : m.points)
-    csv.append({p.speed, p.angle, p.detached, p.detached_error, p.attached, p.attached_error, p.rolled, p.redeposited,
-                static_cast<double>(p.impacts), p.rebound, p.deepest, p.peak});
-  csv.flush();
-}
-
-/// The points themselves as a law, with every angle; beside the micro-model file as a table of its own.
-micromodels::TableLaw tabulate(const DeriveArguments& a, const Mechanism& m, const std::string& mechanism,
-                               double DerivedPoint::*value, double DerivedPoint::*error, micromodels::Validity valid,
-                               std::map<std::string, std::string>& files) {
-  std::vector<double> angles = a.angles, speeds;
-  std::sort(angles.begin(), angles.end());
-  std::vector<DerivedPoint> points;
-  for (const DerivedPoint& p : m.points)
-    if (sound(p, m.scene)) points.push_back(p);
-  std::sort(points.begin(), points.end(),
-            [](const auto& x, const auto& y) { return x.speed != y.speed ? x.speed < y.speed : x.angle < y.angle; });
-  for (std::size_t k = 0; k + angles.size() <= points.size(); k += angles.size()) {
-    if (points[k + angles.size() - 1].speed != points[k].speed) break;  // not sound at every angle: ends here
-    speeds.push_back(points[k].speed);
-  }
-  points.resize(speeds.size() * angles.size());
-  auto file = a.out;
-  file.replace_filename(a.out.stem().string() + "-" + mechanism + ".csv");
-  files[mechanism] = file.filename().string();
-  output::CsvFile csv(file, {"speed", "angle", "fraction", "error"});
-  std::vector<double> values;
-  for (const DerivedPoint& p : points) {
-    csv.append({p.speed, p.angle, p.*value, p.*error});
-    values.push_back(p.*value);
-  }
-  csv.flush();
-  return micromodels::TableLaw(speeds, angles, values, true, valid);
-}
-
 std::string drag_comment(const DeriveArguments& a, const Scene& s, json& rows) {
   std::string out = "Drag does not act: a carrier held in air (1.204 kg/m^3, 1.82e-5 Pa s), parts of its fines:";
   for (const double slip : a.slips) {
@@ -222,34 +136,6 @@ std::string drag_comment(const DeriveArguments& a, const Scene& s, json& rows) {
                     {"rolling", h.rolling / double(s.fines)}});
   }
   return out + "\nSliding and rolling fines move along the carrier; none is lifted off it.";
-}
-
-json points_json(const Mechanism& m) {
-  json rows = json::array();
-  for (const auto& p : m.points)
-    rows.push_back({{"speed", p.speed},
-                    {"angle", p.angle},
-                    {"impacts", p.impacts},
-                    {"detached", p.detached},
-                    {"detached_error", p.detached_error},
-                    {"attached", p.attached},
-                    {"attached_error", p.attached_error},
-                    {"rolled", p.rolled},
-                    {"redeposited", p.redeposited},
-                    {"rebound", p.rebound},
-                    {"deepest", p.deepest},
-                    {"seconds", p.seconds}});
-  return rows;
-}
-
-json fit_json(const PowerFit& fit) {
-  json j{{"A", json::array()}, {"low", json::array()}, {"high", json::array()}, {"rms", fit.rms}};
-  for (const auto& e : fit.A) {
-    j["A"].push_back(e.value);
-    j["low"].push_back(std::isfinite(e.low) ? json(e.low) : json());
-    j["high"].push_back(std::isfinite(e.high) ? json(e.high) : json());
-  }
-  return j;
 }
 
 int derive_set(const DeriveArguments& a) {
