@@ -65,7 +65,6 @@ class Motion {
   void kick_and_drift(double h);
   void fly(double h);
   double time_of_flight(double horizon) const;
-  bool beyond_trust(std::size_t i) const;
   void look_again();
 
   const double time_, duration_;
@@ -185,7 +184,7 @@ void Motion::kick_and_drift(double h) {
       vec(body.w) += vec(body.twist);
       r.drag_impulse += 0.5 * h * r.drag_force;
       vec(body.x) += h * vec(body.v);
-      ask = ask || beyond_trust(i);
+      ask = ask || beyond_trust(cluster_.walls[i], vec(body.x), body.radius);
     }
     said_[part].ask_walls = ask;
   });
@@ -203,7 +202,7 @@ void Motion::fly(double h) {
     vec(body.x) = end.position, vec(body.v) = end.velocity, vec(body.w) = end.spin;
     r.drag_impulse += end.drag_impulse;
     vec(body.kick).setZero(), vec(body.twist).setZero();
-    ask = ask || beyond_trust(i);
+    ask = ask || beyond_trust(cluster_.walls[i], vec(body.x), body.radius);
   }
   said_.assign(1, Said{});
   said_[0].ask_walls = ask;
@@ -233,20 +232,11 @@ double Motion::time_of_flight(double horizon) const {
   return first;
 }
 
-/// True if body i is where its knowledge of the walls ends.
-bool Motion::beyond_trust(std::size_t i) const {
-  const WallCache& cache = cluster_.walls[i];
-  const Body& body = cluster_.bodies[i];
-  double radius = cache.clear - body.radius;
-  if (!cache.planes.empty()) radius = std::min(radius, cache.trust);
-  return (vec(body.x) - cache.asked_at).squaredNorm() > radius * std::abs(radius);
-}
-
 void Motion::look_again() {
   if (!merge(said_).ask_walls) return;
   for (std::size_t i = 0; i < cluster_.bodies.size(); ++i) {
-    if (cluster_.records[i].fixed || !beyond_trust(i)) continue;
     const Body& body = cluster_.bodies[i];
+    if (cluster_.records[i].fixed || !beyond_trust(cluster_.walls[i], vec(body.x), body.radius)) continue;
     look_at_walls(walls_, vec(body.x), body.radius, vec(body.v).norm() * (duration_ - elapsed_), cluster_.scratch,
                   cluster_.walls[i]);
     match_walls(static_cast<std::int32_t>(i), time_ + elapsed_, rules_, cluster_);

@@ -2,6 +2,8 @@
 // What a carrier remembers of the walls around it, so that it need not ask at every step.
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -23,6 +25,13 @@ struct WallCache {
   double trust = 0.0;   // the planes hold while the centre is within this distance of asked_at [m]
   std::vector<WallPlane> planes;
 };
+
+/// True if a carrier of `radius` at `centre` is where what the cache knows of the walls ends.
+inline bool beyond_trust(const WallCache& cache, const Eigen::Vector3d& centre, double radius) {
+  double trusted = cache.clear - radius;
+  if (!cache.planes.empty()) trusted = std::min(trusted, cache.trust);
+  return (centre - cache.asked_at).squaredNorm() > trusted * std::abs(trusted);
+}
 
 /// Makes `cache` valid for a carrier of `radius` at `centre` that will move at most `travel`: afterwards every wall it
 /// may touch on that way is among cache.planes, which may be empty. Asks `walls` only when the old answer will not do.

@@ -10,12 +10,10 @@
 
 #include "cases/units.hpp"
 #include "cases/write_micromodels.hpp"
-#include "micromodels/continuity.hpp"
-#include "micromodels/derivation/derive.hpp"
-#include "tools/output/csv_file.hpp"
 #include "tools/output/output_folder.hpp"
 #include "tools/puffin/arguments.hpp"
 #include "tools/puffin/console.hpp"
+#include "tools/puffin/derived_mechanism.hpp"
 #include "tools/puffin/exit_codes.hpp"
 #include "tools/puffin/law_plot.hpp"
 #include "tools/puffin/micromodel.hpp"
@@ -97,8 +95,8 @@ std::vector<double> default_speeds(double threshold) {
   return speeds;
 }
 
-Mechanism derive(const DeriveArguments& a, Partner target) {
-  Mechanism m;
+DerivedMechanism derive(const DeriveArguments& a, Partner target) {
+  DerivedMechanism m;
   m.scene = scene_of(a, target);
   const double bare = bare_threshold(m.scene);
   const std::vector<double> speeds = a.speeds.empty() ? default_speeds(bare) : a.speeds;
@@ -138,53 +136,7 @@ std::string drag_comment(const DeriveArguments& a, const Scene& s, json& rows) {
   return out + "\nSliding and rolling fines move along the carrier; none is lifted off it.";
 }
 
-int derive_set(const DeriveArguments& a) {
-  check_speeds(a.speeds);
-  std::optional<tbb::global_control> limit;
-  if (a.threads > 0) limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(a.threads));
-  micromodels::FinesModels models;
-  models.label = micromodels::Label::derived;
-  models.source = "resolved impacts of one coated carrier (docs/micromodels.md)";
-  std::map<std::string, std::string> comments;
-  std::map<std::string, std::string> files;
-  const bool tables = a.law == "table";
-  if (tables && a.out.empty()) throw std::invalid_argument("--law table needs --out: tables stand beside the file");
-  std::vector<output::Curve> data;
-  json j;
-  std::optional<Scene> scene;
-  for (const std::string& target : a.targets) {
-    const bool wall = target == "wall";
-    const Mechanism m = derive(a, wall ? Partner::wall : Partner::carrier);
-    scene = m.scene;
-    models.surface_energy = m.scene.surface.surface_energy;
-    const micromodels::Validity valid{0.0, m.fitted.back().speed};
-    (wall ? models.wall_detach : models.particle_detach) = micromodels::PowerLaw(m.detach.law().constants(), valid);
-    comments[wall ? "wall_detach" : "particle_detach"] = comment_of(a, m, m.detach, true);
-    if (wall) {
-      models.wall_attach = micromodels::PowerLaw(m.attach.law().constants(), valid);
-      comments["wall_attach"] = comment_of(a, m, m.attach, false);
-    }
-    if (tables) {
-      const std::string key = wall ? "wall_detach" : "particle_detach";
-      (wall ? models.wall_detach : models.particle_detach) =
-          tabulate(a, m, key, &DerivedPoint::detached, &DerivedPoint::detached_error, valid, files);
-      if (wall)
-        models.wall_attach =
-            tabulate(a, m, "wall_attach", &DerivedPoint::attached, &DerivedPoint::attached_error, valid, files);
-    }
-    if (!a.out.empty()) {
-      auto table = a.out;
-      write_table(table.replace_filename(a.out.stem().string() + "-" + target + ".csv"), m);
-    }
-    output::Curve curve{target + ", resolved", {}, {}};
-    for (const auto& p : m.fitted) curve.x.push_back(p.speed), curve.y.push_back(p.detached);
-    data.push_back(curve);
-    j[target] = {{"points", points_json(m)}, {"detach", fit_json(m.detach)}, {"half_predicts_half", m.half}};
-    if (wall) j[target]["attach"] = fit_json(m.attach);
-  }
-  json drag = json::array();
-  comments["drag_detach"] = drag_comment(a, *scene, drag);
-  j["held_in_flow"] = drag;
+std::string provenance(const DeriveArguments& a) {
   char head[600];
   std::snprintf(head, sizeof head,
                 "Derived by puffin micromodel derive: %d fines of %s on a carrier of %s, %s, surface energy %s,\n"
@@ -194,7 +146,61 @@ int derive_set(const DeriveArguments& a) {
                 a.patches > 0 ? "in patches" : "uniformly spread", a.energy.c_str(), a.modulus.c_str(), a.poisson,
                 a.yield.c_str(), a.wall_modulus.c_str(), a.wall_poisson, a.wall_yield.c_str(), a.restitution,
                 a.friction, a.spread, static_cast<unsigned long long>(a.seed));
-  comments[""] = head;
+  return head;
+}
+
+/// A table of its own beside the micro-model file.
+std::filesystem::path beside(std::filesystem::path out, const std::string& name) {
+  return out.replace_filename(out.stem().string() + "-" + name + ".csv");
+}
+
+int derive_set(const DeriveArguments& a) {
+  check_speeds(a.speeds);
+  std::optional<tbb::global_control> limit;
+  if (a.threads > 0) limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(a.threads));
+  const bool tables = a.law == "table";
+  if (tables && a.out.empty()) throw std::invalid_argument("--law table needs --out: tables stand beside the file");
+  micromodels::FinesModels models;
+  models.label = micromodels::Label::derived;
+  models.source = "resolved impacts of one coated carrier (docs/micromodels.md)";
+  std::map<std::string, std::string> comments{{"", provenance(a)}}, files;
+  std::vector<output::Curve> data;
+  json j;
+  std::optional<Scene> scene;
+  for (const std::string& target : a.targets) {
+    const bool wall = target == "wall";
+    const DerivedMechanism m = derive(a, wall ? Partner::wall : Partner::carrier);
+    scene = m.scene;
+    models.surface_energy = m.scene.surface.surface_energy;
+    const auto add_law = [&](const std::string& key, const PowerFit& fit, const Fraction& fraction,
+                             std::optional<micromodels::Law>& law) {
+      const micromodels::Validity valid{0.0, m.fitted.back().speed};
+      if (tables) {
+        law = tabulate(m, a.angles, fraction, valid, beside(a.out, key));
+        files[key] = beside(a.out, key).filename().string();
+      } else {
+        law = micromodels::PowerLaw(fit.law().constants(), valid);
+      }
+    };
+    const Fraction detached{&DerivedPoint::detached, &DerivedPoint::detached_error};
+    if (wall) {
+      add_law("wall_detach", m.detach, detached, models.wall_detach);
+      comments["wall_detach"] = detach_comment(m, a.impacts);
+      comments["wall_attach"] = attach_comment(m, a.impacts);
+      add_law("wall_attach", m.attach, {&DerivedPoint::attached, &DerivedPoint::attached_error}, models.wall_attach);
+    } else {
+      comments["particle_detach"] = detach_comment(m, a.impacts);
+      add_law("particle_detach", m.detach, detached, models.particle_detach);
+    }
+    if (!a.out.empty()) write_points(beside(a.out, target), m);
+    output::Curve curve{target + ", resolved", {}, {}};
+    for (const auto& p : m.fitted) curve.x.push_back(p.speed), curve.y.push_back(p.detached);
+    data.push_back(curve);
+    j[target] = as_json(m);
+  }
+  json drag = json::array();
+  comments["drag_detach"] = drag_comment(a, *scene, drag);
+  j["held_in_flow"] = drag;
   const std::string text = cases::write_micromodels(models, comments, files);
   if (!a.out.empty()) {
     output::write_whole(a.out, text);

@@ -3,62 +3,14 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <tuple>
 
 #include "coupling/checkpoint/bytes.hpp"
-#include "dem/open_contacts.hpp"
 #include "tools/output/stats_file.hpp"
 #include "tools/puffin/frames_of.hpp"
-#include "tools/puffin/replay_record.hpp"
 
 namespace puffin::tools {
 
 using coupling::Vec3;
-
-namespace {
-
-constexpr const char* journal_name = "checkpoints/events.journal";
-
-void add_fines(const OpenContact& contact, output::EventRecord& r) {
-  r.detached = contact.taken.air + contact.taken.wall;
-  r.attached = contact.taken.wall;
-  r.angle = contact.angle;
-  r.order = static_cast<double>(contact.order);
-  r.drag_a = contact.mark.drag_a;
-  r.drag_b = contact.mark.drag_b;
-  r.a_loses = contact.mark.a_loses;
-  r.b_loses = contact.mark.b_loses;
-}
-
-/// What the log holds of a contact; the fines it moved are in `moved` if it moved any.
-output::EventRecord record_of(const dem::ContactEnded& c, const MovedFines& moved) {
-  output::EventRecord r;
-  r.time_start = c.time_start;
-  r.time_end = c.time_end;
-  r.a = static_cast<std::int32_t>(c.a);
-  r.b = static_cast<std::int32_t>(c.b);
-  r.triangle = c.triangle;
-  r.normal_speed = c.normal_speed;
-  r.tangential_speed = c.tangential_speed;
-  r.energy = c.energy;
-  r.max_force = c.max_force;
-  r.max_overlap = c.max_overlap;
-  if (const auto found = moved.find({c.a, c.b, c.triangle, c.time_start}); found != moved.end())
-    add_fines(found->second, r);
-  return r;
-}
-
-/// The contacts that last beyond the end of the run, as if they ended now.
-std::vector<output::EventRecord> open_contacts(const cases::Simulation& s, const MovedFines& moved) {
-  std::vector<output::EventRecord> records;
-  for (const auto& c : dem::open_contacts(s.state.carriers, s.state.time)) records.push_back(record_of(c, moved));
-  std::sort(records.begin(), records.end(), [](const output::EventRecord& x, const output::EventRecord& y) {
-    return std::tie(x.time_start, x.a, x.b, x.triangle) < std::tie(y.time_start, y.a, y.b, y.triangle);
-  });
-  return records;
-}
-
-}  // namespace
 
 output::HistoryRow history_row(const cases::Simulation& s, const DropReader& drops) {
   output::HistoryRow row;
@@ -119,8 +71,6 @@ Recorder::Recorder(const cases::Simulation& s, const output::OutputFolder& folde
     history_ = resume->history;
     totals_ = resume->totals;
     lines_ = resume->lines;
-    moved_ = resume->moved;
-    begun_ = resume->begun;
   }
   open_files(s, resume);
   if (!resume) walls_vtk_->append(0.0, wall_frame(s));
@@ -143,9 +93,7 @@ void Recorder::open_files(const cases::Simulation& s, const RecorderState* resum
   if (!out.forces.empty()) forces_csv_ = table(3, "forces.csv", output::force_columns());
   if (s.description.carriers) {
     if (!s.description.carriers->list.empty()) tracks_csv_ = table(4, "tracks.csv", output::track_columns());
-    if (out.events)
-      events_ = std::make_unique<output::EventsJournal>(folder_.file(journal_name),
-                                                        resume ? std::optional(resume->events) : std::nullopt);
+    if (out.events) events_ = std::make_unique<EventRecorder>(folder_, resume);
     if (std::isfinite(carriers_.interval)) carriers_vtk_ = series(1, "carriers");
   }
   if (s.state.air && !out.fields.empty()) fields_vtk_ = series(0, "fields");
@@ -160,12 +108,10 @@ RecorderState Recorder::state() const {
   r.history = history_;
   r.totals = totals_;
   r.lines = lines_;
-  r.moved = moved_;
-  r.begun = begun_;
   const output::CsvFile* tables[] = {history_csv_.get(), probes_csv_.get(), planes_csv_.get(), forces_csv_.get(),
                                      tracks_csv_.get()};
   for (std::size_t n = 0; n < r.tables.size(); ++n) r.tables[n] = tables[n] ? tables[n]->bytes() : 0;
-  r.events = events_ ? events_->size() : 0;
+  if (events_) events_->save(r);
   const output::VtkSeries* series[] = {fields_vtk_.get(), carriers_vtk_.get(), walls_vtk_.get()};
   for (std::size_t n = 0; n < r.series.size(); ++n) r.series[n] = series[n] ? series[n]->entries().size() : 0;
   return r;
@@ -199,10 +145,8 @@ void Recorder::write_stats() {
 }
 
 void Recorder::forget_journal() {
-  if (!events_) return;
+  if (events_) events_->forget_journal();
   events_.reset();
-  std::error_code error;
-  std::filesystem::remove(folder_.file(journal_name), error);
 }
 
 double Recorder::next() const {
@@ -213,20 +157,7 @@ double Recorder::next() const {
 }
 
 void Recorder::take_events(const cases::Simulation& s) {
-  if (!events_) return;
-  const auto& events = s.state.events;
-  const auto& taken = s.state.release.taken();
-  const auto& marks = s.state.release.marks();
-  for (std::size_t n = 0; n < events.begun.size() && n < taken.size(); ++n) {
-    const auto& c = events.begun[n];
-    moved_[{c.a, c.b, c.triangle, c.time}] = {taken[n], marks[n], coupling::angle_to_surface(c), begun_++};
-  }
-  std::vector<output::EventRecord> records;
-  for (const dem::ContactEnded& c : events.ended) {
-    records.push_back(record_of(c, moved_));
-    moved_.erase({c.a, c.b, c.triangle, c.time_start});
-  }
-  if (!records.empty()) events_->append(records);
+  if (events_) events_->take(s);
 }
 
 void Recorder::record(const cases::Simulation& s) {
@@ -340,9 +271,7 @@ void Recorder::finish(const cases::Simulation& s) {
   for (auto* series : {&fields_vtk_, &carriers_vtk_, &walls_vtk_})
     if (*series) (*series)->sync();
   write_stats();
-  if (!events_) return;
-  const auto tables = replay_tables(s);
-  events_->write_events(folder_.file("events.h5"), open_contacts(s, moved_), tables ? &*tables : nullptr);
+  if (events_) events_->finish(s);
 }
 
 }  // namespace puffin::tools

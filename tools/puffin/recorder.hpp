@@ -8,12 +8,12 @@
 
 #include "cases/build.hpp"
 #include "tools/output/csv_file.hpp"
-#include "tools/output/events_journal.hpp"
 #include "tools/output/output_folder.hpp"
 #include "tools/output/stats_file.hpp"
 #include "tools/output/summary.hpp"
 #include "tools/output/tables.hpp"
 #include "tools/output/vtk_series.hpp"
+#include "tools/puffin/event_recorder.hpp"
 #include "tools/puffin/recorder_state.hpp"
 
 namespace puffin::tools {
@@ -81,12 +81,10 @@ class Recorder {
   std::vector<Interval> fields_;
   std::vector<output::HistoryRow> history_;
   std::unique_ptr<output::CsvFile> history_csv_, probes_csv_, planes_csv_, forces_csv_, tracks_csv_;
-  std::unique_ptr<output::EventsJournal> events_;
+  std::unique_ptr<EventRecorder> events_;
   std::unique_ptr<output::VtkSeries> fields_vtk_, carriers_vtk_, walls_vtk_;
   std::vector<LineSums> lines_;
   std::vector<Totals> totals_;  // one a row of the history
-  MovedFines moved_;
-  std::int64_t begun_ = 0;
   std::vector<RepeatedOutput> repeated_;
 };
 

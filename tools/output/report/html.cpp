@@ -88,7 +88,16 @@ std::string grouped(long long value) {
   return (value < 0 ? "&minus;" : "") + digits;
 }
 
-std::string table(const std::vector<std::string>& head, const std::vector<std::vector<std::string>>& rows) {
+std::string percent(double part) { return significant(100 * part, 3) + "&nbsp;%"; }
+
+std::string milliseconds(const std::optional<double>& time) {
+  return time ? significant(*time * 1e3, 4) + " ms" : "<span class=soft>none</span>";
+}
+
+std::string heading(const std::string& text) { return "<h2>" + escaped(text) + "</h2>\n"; }
+std::string paragraph(const std::string& text) { return "<p>" + escaped(text) + "</p>\n"; }
+
+std::string table(const std::vector<std::string>& head, const Rows& rows) {
   std::string out = "<table>\n<tr>";
   for (const auto& cell : head) out += "<th>" + cell + "</th>";
   out += "</tr>\n";

@@ -15,8 +15,15 @@ std::string significant(double value, int digits = 3);
 std::string significant(const std::optional<double>& value, int digits = 3);
 /// Whole numbers with thin spaces between the thousands.
 std::string grouped(long long value);
+/// A part of 1 as "12.3&nbsp;%".
+std::string percent(double part);
+/// A time [s] as "12.3 ms", or that there is none.
+std::string milliseconds(const std::optional<double>& time);
+std::string heading(const std::string& text);    // of a section
+std::string paragraph(const std::string& text);  // plain text
+using Rows = std::vector<std::vector<std::string>>;
 /// Cells are HTML; the first column is text, the others are set flush right.
-std::string table(const std::vector<std::string>& head, const std::vector<std::vector<std::string>>& rows);
+std::string table(const std::vector<std::string>& head, const Rows& rows);
 std::string base64(const std::string& bytes);
 /// A figure with an embedded PNG.
 std::string figure_png(const std::string& png, const std::string& caption);

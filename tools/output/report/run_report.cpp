@@ -1,46 +1,21 @@
 // The report of one run, section by section. A section without data says why it is left out.
 
-#include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <sstream>
 
 #include "tools/output/csv_file.hpp"
-#include "tools/output/output_error.hpp"
 #include "tools/output/picture/decorations.hpp"
-#include "tools/output/picture/views.hpp"
 #include "tools/output/render.hpp"
 #include "tools/output/report.hpp"
 #include "tools/output/report/chart.hpp"
 #include "tools/output/report/html.hpp"
+#include "tools/output/report/run_charts.hpp"
 #include "tools/output/report/run_pictures.hpp"
 #include "tools/output/summary.hpp"
-#include "tools/output/vtk_series.hpp"
 
 namespace puffin::output {
 namespace {
 
 namespace fs = std::filesystem;
-using Rows = std::vector<std::vector<std::string>>;
-
-struct Run {
-  fs::path folder;
-  Summary summary;
-  CsvTable history;
-
-  std::vector<double> column(const std::string& name, double factor = 1.0) const {
-    std::vector<double> values = history.numbers(name);
-    for (double& value : values) value *= factor;
-    return values;
-  }
-};
-
-std::string heading(const std::string& text) { return "<h2>" + escaped(text) + "</h2>\n"; }
-std::string paragraph(const std::string& text) { return "<p>" + escaped(text) + "</p>\n"; }
-
-std::string milliseconds(const std::optional<double>& time) {
-  return time ? significant(*time * 1e3, 4) + " ms" : "<span class=soft>none</span>";
-}
 
 std::string duration(double seconds) {
   if (seconds < 120) return significant(seconds, 3) + " s";
@@ -52,9 +27,7 @@ std::string tile(const std::string& value, const std::string& name) {
   return "<div class=tile><b>" + value + "</b><span>" + name + "</span></div>\n";
 }
 
-std::string percent(double part) { return significant(100 * part, 3) + "&nbsp;%"; }
-
-std::string head(const Run& run) {
+std::string head(const RunResults& run) {
   const Summary& s = run.summary;
   const bool known = s.state == "finished" || s.state == "stopped" || s.state == "diverged";
   std::string out = "<h1>" + escaped(s.name) + "<span class=\"state " + (known ? s.state : "stopped") + "\">" +
@@ -86,13 +59,13 @@ std::string head(const Run& run) {
   return out + "</div>\n";
 }
 
-std::string geometry(const Run& run) {
+std::string geometry(const RunResults& run) {
   std::string out = heading("The device");
   if (!can_render(run.folder, View::geometry)) return out + left_out("this run has written no walls (vtk/walls.pvd).");
   return out + embedded(run.folder, geometry_picture_of_run());
 }
 
-std::string carriers(const Run& run) {
+std::string carriers(const RunResults& run) {
   std::string out = heading("Carriers in flight");
   if (!run.summary.carriers) return out + left_out("this run has no carriers.");
   if (!can_render(run.folder, View::carriers)) {
@@ -111,104 +84,7 @@ std::string carriers(const Run& run) {
   return out + embedded(run.folder, retained_picture(run.summary));
 }
 
-std::string emission(const Run& run) {
-  std::string out = heading("Emission over time");
-  if (!run.summary.carriers) return out + left_out("this run has no carriers.");
-  if (run.history.rows.empty()) return out + left_out("history.csv holds no rows.");
-  const std::vector<double> time = run.column("time", 1e3);
-  LineChart count;
-  count.x_label = "time [ms]", count.y_label = "carriers";
-  count.curves = {{"emitted", time, run.column("carriers_emitted")},
-                  {"in the device", time, run.column("carriers_in")}};
-  const CarrierSummary& c = *run.summary.carriers;
-  if (c.first_motion) count.markers.push_back({*c.first_motion * 1e3, "first motion"});
-  if (c.first_emitted) count.markers.push_back({*c.first_emitted * 1e3, "first emitted"});
-  out += figure_svg(line_chart(count), "Single carriers (history.csv).");
-  if (run.summary.fines.empty()) return out + left_out("the fines: this run has none.");
-  LineChart fines;
-  fines.x_label = "time [ms]", fines.y_label = "fraction of the fines loaded", fines.y_at_least = 1.0;
-  for (const char* name : {"FFE", "FFW", "FFCR", "FFCE", "in_air"}) {
-    fines.curves.push_back({name, time, run.column(name)});
-  }
-  out += figure_svg(line_chart(fines),
-                    "Where the fines are: FFE left the device free, FFW on the walls, FFCR on carriers in the device, "
-                    "FFCE on emitted carriers, in_air still airborne inside. They add up to 1.");
-  return out;
-}
-
-std::string flow(const Run& run) {
-  std::string out = heading("Flow and pressure");
-  if (run.history.rows.empty()) return out + left_out("history.csv holds no rows.");
-  const std::vector<double> time = run.column("time", 1e3);
-  out += "<div class=pair>\n";
-  LineChart rate{"time [ms]", "flow rate [L/min]", {{"flow rate", time, run.column("flow_rate", 6e4)}}, {}, 0.0, 520.0};
-  out += figure_svg(line_chart(rate), "Flow rate through the device.");
-  LineChart drop{"time [ms]", "pressure drop [Pa]", {}, {}, 0.0, 520.0};
-  drop.curves = {{"static", time, run.column("static_drop")},
-                 {"total to static", time, run.column("total_to_static_drop")}};
-  out += figure_svg(line_chart(drop), "Pressure drops from inlet to outlet.") + "</div>\n";
-  if (!run.summary.pressure) return out;
-  const PressureSummary& p = *run.summary.pressure;
-  Rows rows;
-  const auto add = [&](const char* name, const TimeMean& m) {
-    rows.push_back(
-        {name, significant(m.mean, 4),
-         m.ci_low && m.ci_high ? significant(*m.ci_low, 4) + " to " + significant(*m.ci_high, 4) : "too few batches",
-         std::to_string(m.batches)});
-  };
-  add("static drop [Pa]", p.static_drop);
-  add("total-to-static drop [Pa]", p.total_to_static_drop);
-  out += table({"mean from " + milliseconds(p.window_begin) + " to " + milliseconds(p.window_end), "mean",
-                "95 % interval of the mean", "batches"},
-               rows);
-  out += paragraph(
-      "The total-to-static drop is what a test rig measures against the room: the losses and the speed that leaves. "
-      "The "
-      "interval comes from the means of equal pieces of that time, the batches: longer runs give more.");
-  return out;
-}
-
-/// "experiment.FFE" -> {"experiment", "FFE"}; names without such a word are plain references.
-std::pair<std::string, std::string> source_of(const std::string& name) {
-  for (const char* source : {"experiment", "thesis", "simulation"}) {
-    if (name.rfind(std::string(source) + ".", 0) == 0) return {source, name.substr(std::string(source).size() + 1)};
-  }
-  return {"reference", name};
-}
-
-std::string outcome(const Run& run) {
-  std::string out = heading("Where the fines ended");
-  if (run.summary.fines.empty()) return out + left_out("this run has no fines.");
-  const FinesSummary& f = run.summary.fines[0];
-  BarChart chart{"fraction of the fines loaded", {}, 3};
-  for (const auto& [name, value] : {std::pair<std::string, double>{"FFE", f.FFE},
-                                    {"FFW", f.FFW},
-                                    {"FFCR", f.FFCR},
-                                    {"FFCE", f.FFCE},
-                                    {"in_air", f.in_air}}) {
-    BarGroup group{name, {{"this run", value, {}, {}}}};
-    for (const auto& row : run.summary.reference) {
-      const auto [source, quantity] = source_of(row.name);
-      if (quantity == name) group.bars.push_back({source, row.given, row.low, row.high});
-    }
-    chart.groups.push_back(group);
-  }
-  out += figure_svg(bar_chart(chart),
-                    "FFE free and emitted, FFW on the walls, FFCR on retained carriers, FFCE on emitted carriers, "
-                    "in_air still airborne at the end. Whiskers: the spread of the given value.");
-  Rows rows;
-  for (const auto& one : run.summary.fines) {
-    rows.push_back({escaped(one.name), significant(one.FFE), significant(one.FFW), significant(one.FFCR),
-                    significant(one.FFCE), significant(one.in_air), percent(one.by_mechanism.wall),
-                    percent(one.by_mechanism.particle), percent(one.by_mechanism.drag),
-                    significant(one.ledger_error, 2)});
-  }
-  return out + table({"scalar", "FFE", "FFW", "FFCR", "FFCE", "in_air", "detached by walls", "by carriers", "by drag",
-                      "ledger error"},
-                     rows);
-}
-
-std::string reference(const Run& run) {
+std::string reference(const RunResults& run) {
   std::string out = heading("Beside the given values");
   if (run.summary.reference.empty()) return out + left_out("the case has no [reference] table.");
   Rows rows;
@@ -222,7 +98,7 @@ std::string reference(const Run& run) {
          paragraph("Given values are printed for comparison; the solver never uses them. SI units.");
 }
 
-std::string collisions(const Run& run) {
+std::string collisions(const RunResults& run) {
   std::string out = heading("Collisions");
   if (!run.summary.collisions) return out + left_out("this run has no carriers.");
   const CollisionSummary& c = *run.summary.collisions;
@@ -238,7 +114,7 @@ std::string collisions(const Run& run) {
          paragraph("Counted per single carrier: a parcel of ten counts ten times, a contact once for each partner.");
 }
 
-std::string wall_map(const Run& run) {
+std::string wall_map(const RunResults& run) {
   std::string out = heading("What landed on the walls");
   if (!run.summary.carriers) return out + left_out("this run has no carriers.");
   if (!can_render(run.folder, View::wall_map)) return out + left_out("no wall map is stored.");
@@ -246,7 +122,7 @@ std::string wall_map(const Run& run) {
          embedded(run.folder, wall_map_picture_of_run("hits"));
 }
 
-std::string slice(const Run& run) {
+std::string slice(const RunResults& run) {
   std::string out = heading("The air");
   if (!can_render(run.folder, View::slice)) {
     return out + left_out("no fields are stored; add an entry to [output] fields.");
@@ -259,7 +135,7 @@ std::string slice(const Run& run) {
   return out + embedded(run.folder, lines);
 }
 
-std::string work(const Run& run) {
+std::string work(const RunResults& run) {
   std::string out = heading("Where the time went");
   if (run.summary.phases.empty()) return out + left_out("no times by phase are recorded.");
   BarChart chart{"seconds of wall-clock time", {}, 3};
@@ -275,7 +151,7 @@ std::string work(const Run& run) {
   return out + "<h3>What was skipped</h3>\n" + table({"", "times", "saved, estimated"}, rows);
 }
 
-std::string numerics(const Run& run) {
+std::string numerics(const RunResults& run) {
   const Summary& s = run.summary;
   Rows rows{{"cell size dx", significant(s.dx * 1e3, 4) + " mm"},
             {"fluid cells", grouped(s.cells_fluid)},
@@ -290,7 +166,7 @@ std::string numerics(const Run& run) {
   return heading("Numerics") + table({"", ""}, rows);
 }
 
-std::string assumptions(const Run& run) {
+std::string assumptions(const RunResults& run) {
   std::string out = heading("Assumptions");
   if (run.summary.assumptions.empty()) return out + paragraph("The case marks none.");
   out += "<ul>\n";
@@ -298,7 +174,7 @@ std::string assumptions(const Run& run) {
   return out + "</ul>\n";
 }
 
-std::string reproduce(const Run& run) {
+std::string reproduce(const RunResults& run) {
   return heading("To run this again") + "<p>With Puffin " + escaped(run.summary.version) +
          " and the file <code>case.toml</code> of this run, which holds every value and where it came "
          "from:</p>\n<pre>" +
@@ -311,15 +187,15 @@ std::string reproduce(const Run& run) {
 }  // namespace
 
 std::string make_report(const fs::path& folder) {
-  Run run;
+  RunResults run;
   run.folder = fs::absolute(folder).lexically_normal();
   if (!run.folder.has_filename()) run.folder = run.folder.parent_path();
   run.summary = read_summary(run.folder / "summary.json");
   if (fs::exists(run.folder / "history.csv")) run.history = read_csv(run.folder / "history.csv");
   write_summary_table(run.folder);
   std::string body = head(run);
-  for (const auto section : {geometry, carriers, emission, outcome, reference, flow, slice, collisions, wall_map, work,
-                             numerics, assumptions, reproduce}) {
+  for (const auto section : {geometry, carriers, emission_section, outcome_section, reference, flow_section, slice,
+                             collisions, wall_map, work, numerics, assumptions, reproduce}) {
     body += section(run);
   }
   return page(run.summary.name, body);

@@ -8,7 +8,6 @@
 namespace puffin::output {
 namespace {
 
-using Rows = std::vector<std::vector<std::string>>;
 using Measurements = std::vector<Measurement>;
 
 /// "pressure_drop_kPa" -> "pressure drop [kPa]"

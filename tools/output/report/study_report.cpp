@@ -14,10 +14,6 @@ namespace puffin::output {
 namespace {
 
 namespace fs = std::filesystem;
-using Rows = std::vector<std::vector<std::string>>;
-
-std::string heading(const std::string& text) { return "<h2>" + escaped(text) + "</h2>\n"; }
-std::string paragraph(const std::string& text) { return "<p>" + escaped(text) + "</p>\n"; }
 
 std::string with_given(const StudyCaseResult& c, const std::string& quantity, double factor = 1.0) {
   const Estimate* e = c.find(quantity);

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
+#include <fstream>
 #include <system_error>
 
 namespace puffin::tools {
@@ -47,6 +48,14 @@ std::optional<int> Child::ended() {
 }
 
 void Child::terminate() const { kill(pid_, SIGTERM); }
+
+std::string last_line(const std::filesystem::path& log) {
+  std::ifstream stream(log);
+  std::string last;
+  for (std::string line; std::getline(stream, line);)
+    if (!line.empty()) last = line;
+  return last.substr(0, 400);
+}
 
 int threads_for_next(int free_cores, int free_places, int waiting) {
   const int starting = std::max(1, std::min(free_places, waiting));

@@ -25,6 +25,9 @@ class Child {
   pid_t pid_ = -1;
 };
 
+/// The last line of a child's log that is not empty, or its first 400 characters.
+std::string last_line(const std::filesystem::path& log);
+
 /// Threads for the next run: the free cores divided among the runs that will start now.
 int threads_for_next(int free_cores, int free_places, int waiting);
 

@@ -2,14 +2,11 @@
 
 #include <algorithm>
 #include <csignal>
-#include <cstdlib>
-#include <fstream>
-#include <nlohmann/json.hpp>
 #include <thread>
 
-#include "tools/output/output_folder.hpp"
 #include "tools/output/summary.hpp"
 #include "tools/puffin/batch/pool.hpp"
+#include "tools/puffin/batch/program_calls.hpp"
 #include "tools/puffin/batch/slurm.hpp"
 #include "tools/puffin/console.hpp"
 #include "tools/puffin/exit_codes.hpp"
@@ -21,15 +18,6 @@ using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 volatile std::sig_atomic_t received = 0;
-
-/// The last line that is not empty.
-std::string last_line(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  std::string last;
-  for (std::string line; std::getline(stream, line);)
-    if (!line.empty()) last = line;
-  return last.substr(0, 400);
-}
 
 struct Running {
   std::size_t job;
@@ -85,7 +73,7 @@ class Batch {
           std::filesystem::create_directories(book_.run_folder(m));
           book_.record(m).threads = threads;
         }
-        if (group.front() == n) tasks.push_back({n, arguments_of(n, threads), book_.log_file(n)});
+        if (group.front() == n) tasks.push_back({n, arguments_of(group, threads), book_.log_file(n)});
       }
       if (tasks.empty()) return;
       array.submit(study_.file.stem().string(), tasks, threads, options_.jobs);
@@ -131,7 +119,7 @@ class Batch {
         r.state = JobState::done;
         r.exit_code = ok;
         r.message.clear();
-        replay_members(n);
+        replay_members(n, study_, plan_, book_);
         continue;
       }
       if (r.state == JobState::failed && !options_.retry_failed) {
@@ -160,39 +148,8 @@ class Batch {
     return group;
   }
 
-  void add_beds(const Job& job, std::vector<std::string>& arguments) const {
-    if (job.settles) arguments.insert(arguments.end(), {"--beds", (book_.folder() / "shared" / "beds").string()});
-  }
-
-  /// Writes the list for puffin together and returns its arguments.
-  std::vector<std::string> arguments_of_flow(const std::vector<std::size_t>& group, int threads) const {
-    nlohmann::json list = nlohmann::json::array();
-    for (const std::size_t m : group) {
-      nlohmann::json sets = nlohmann::json::array();
-      for (const cases::Override& o : plan_.jobs[m].sets) sets.push_back(o.key + "=" + o.value);
-      list.push_back({{"case", plan_.jobs[m].base.string()}, {"out", book_.run_folder(m).string()}, {"set", sets}});
-    }
-    output::write_whole(book_.flow_file(group.front()), list.dump(1) + "\n");
-    std::vector<std::string> arguments{"together", book_.flow_file(group.front()).string(), "--threads",
-                                       std::to_string(threads)};
-    if (!options_.preset.empty()) arguments.insert(arguments.end(), {"--preset", options_.preset});
-    const auto settles = [&](std::size_t m) { return plan_.jobs[m].settles; };
-    if (const auto m = std::find_if(group.begin(), group.end(), settles); m != group.end())
-      add_beds(plan_.jobs[*m], arguments);
-    return arguments;
-  }
-
-  /// Of `puffin` for a run, or for its group.
-  std::vector<std::string> arguments_of(std::size_t n, int threads) const {
-    if (const auto group = group_of(n); group.size() > 1) return arguments_of_flow(group, threads);
-    const Job& job = plan_.jobs[n];
-    std::vector<std::string> arguments{"run",       job.base.string(),      "--out", book_.run_folder(n).string(),
-                                       "--threads", std::to_string(threads)};
-    if (!options_.preset.empty()) arguments.insert(arguments.end(), {"--preset", options_.preset});
-    for (const cases::Override& o : job.sets) arguments.insert(arguments.end(), {"--set", o.key + "=" + o.value});
-    add_beds(job, arguments);
-    if (book_.resumable(n)) arguments.emplace_back("--resume");
-    return arguments;
+  std::vector<std::string> arguments_of(const std::vector<std::size_t>& group, int threads) const {
+    return run_arguments(group, threads, options_.preset, plan_, book_);
   }
 
   void start_next() {
@@ -203,7 +160,7 @@ class Batch {
     for (const std::size_t m : waiting_) waiting += group_of(m).front() == m;
     const int threads = threads_for_next(cores_ - used, places_ - static_cast<int>(running_.size()), waiting);
     const std::vector<std::size_t> group = group_of(n);
-    const std::vector<std::string> arguments = arguments_of(n, threads);
+    const std::vector<std::string> arguments = arguments_of(group, threads);
     for (const std::size_t m : group) {
       std::erase(waiting_, m);
       std::filesystem::create_directories(book_.run_folder(m));
@@ -240,7 +197,7 @@ class Batch {
     r.exit_code = code;
     if (code == ok && book_.finished(n)) {
       r.state = JobState::done;
-      replay_members(n);
+      replay_members(n, study_, plan_, book_);
       if (options_.slurm) r.seconds = output::read_summary(book_.run_folder(n) / "summary.json").wall_clock;
       if (!options_.quiet) log_info(plan_.jobs[n].id + ": done in " + as_time(r.seconds));
     } else if (code == stopped || code == interrupted) {
@@ -248,25 +205,6 @@ class Batch {
       log_warning(plan_.jobs[n].id + ": stopped; the same command goes on with it");
     } else {
       fail(n, code == ok ? internal_error : code, last_line(book_.log_file(n)));
-    }
-  }
-
-  /// The fines of the cases that differ from the run in their micro-models.
-  void replay_members(std::size_t n) {
-    for (const Member& m : plan_.jobs[n].members) {
-      const std::filesystem::path file = book_.replay_file(n, m), part = file.string() + ".part";
-      if (m.micromodels.empty() || std::filesystem::exists(file)) continue;
-      std::filesystem::remove(part);  // a link would be written through
-      const std::string program = std::filesystem::read_symlink("/proc/self/exe").string();
-      const int code = std::system((shell_quoted(program) + " replay " + shell_quoted(book_.run_folder(n).string()) +
-                                    " --micromodels " + shell_quoted(m.micromodels) + " --json > " +
-                                    shell_quoted(part.string()) + " 2>> " + shell_quoted(book_.log_file(n).string()))
-                                       .c_str());
-      if (code == 0)
-        output::finish_file(part, file);
-      else
-        log_warning(study_.cases[m.which].name + ": no replay of " + plan_.jobs[n].id + ": " +
-                    last_line(book_.log_file(n)));
     }
   }
 

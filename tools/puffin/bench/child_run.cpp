@@ -3,7 +3,6 @@
 #include <unistd.h>
 
 #include <chrono>
-#include <fstream>
 #include <thread>
 
 #include "tools/bench/machine.hpp"
@@ -12,17 +11,6 @@
 #include "tools/puffin/verify_run.hpp"
 
 namespace puffin::tools {
-namespace {
-
-std::string last_line(const std::filesystem::path& log) {
-  std::ifstream in(log);
-  std::string last;
-  for (std::string line; std::getline(in, line);)
-    if (!line.empty()) last = line;
-  return last;
-}
-
-}  // namespace
 
 ChildRun run_child(const std::filesystem::path& case_file, const std::vector<cases::Override>& sets,
                    const std::filesystem::path& folder, const std::vector<std::string>& more) {

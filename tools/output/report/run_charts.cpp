@@ -1,0 +1,111 @@
+#include "tools/output/report/run_charts.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "tools/output/report/chart.hpp"
+#include "tools/output/report/html.hpp"
+#include "tools/output/report/run_pictures.hpp"
+
+namespace puffin::output {
+namespace {
+
+/// "experiment.FFE" -> {"experiment", "FFE"}; names without such a word are plain references.
+std::pair<std::string, std::string> source_of(const std::string& name) {
+  for (const char* source : {"experiment", "thesis", "simulation"}) {
+    if (name.rfind(std::string(source) + ".", 0) == 0) return {source, name.substr(std::string(source).size() + 1)};
+  }
+  return {"reference", name};
+}
+
+}  // namespace
+
+std::string emission_section(const RunResults& run) {
+  std::string out = heading("Emission over time");
+  if (!run.summary.carriers) return out + left_out("this run has no carriers.");
+  if (run.history.rows.empty()) return out + left_out("history.csv holds no rows.");
+  const std::vector<double> time = run.column("time", 1e3);
+  LineChart count;
+  count.x_label = "time [ms]", count.y_label = "carriers";
+  count.curves = {{"emitted", time, run.column("carriers_emitted")},
+                  {"in the device", time, run.column("carriers_in")}};
+  const CarrierSummary& c = *run.summary.carriers;
+  if (c.first_motion) count.markers.push_back({*c.first_motion * 1e3, "first motion"});
+  if (c.first_emitted) count.markers.push_back({*c.first_emitted * 1e3, "first emitted"});
+  out += figure_svg(line_chart(count), "Single carriers (history.csv).");
+  if (run.summary.fines.empty()) return out + left_out("the fines: this run has none.");
+  LineChart fines;
+  fines.x_label = "time [ms]", fines.y_label = "fraction of the fines loaded", fines.y_at_least = 1.0;
+  for (const char* name : {"FFE", "FFW", "FFCR", "FFCE", "in_air"}) {
+    fines.curves.push_back({name, time, run.column(name)});
+  }
+  out += figure_svg(line_chart(fines),
+                    "Where the fines are: FFE left the device free, FFW on the walls, FFCR on carriers in the device, "
+                    "FFCE on emitted carriers, in_air still airborne inside. They add up to 1.");
+  return out;
+}
+
+std::string flow_section(const RunResults& run) {
+  std::string out = heading("Flow and pressure");
+  if (run.history.rows.empty()) return out + left_out("history.csv holds no rows.");
+  const std::vector<double> time = run.column("time", 1e3);
+  out += "<div class=pair>\n";
+  LineChart rate{"time [ms]", "flow rate [L/min]", {{"flow rate", time, run.column("flow_rate", 6e4)}}, {}, 0.0, 520.0};
+  out += figure_svg(line_chart(rate), "Flow rate through the device.");
+  LineChart drop{"time [ms]", "pressure drop [Pa]", {}, {}, 0.0, 520.0};
+  drop.curves = {{"static", time, run.column("static_drop")},
+                 {"total to static", time, run.column("total_to_static_drop")}};
+  out += figure_svg(line_chart(drop), "Pressure drops from inlet to outlet.") + "</div>\n";
+  if (!run.summary.pressure) return out;
+  const PressureSummary& p = *run.summary.pressure;
+  Rows rows;
+  const auto add = [&](const char* name, const TimeMean& m) {
+    rows.push_back(
+        {name, significant(m.mean, 4),
+         m.ci_low && m.ci_high ? significant(*m.ci_low, 4) + " to " + significant(*m.ci_high, 4) : "too few batches",
+         std::to_string(m.batches)});
+  };
+  add("static drop [Pa]", p.static_drop);
+  add("total-to-static drop [Pa]", p.total_to_static_drop);
+  out += table({"mean from " + milliseconds(p.window_begin) + " to " + milliseconds(p.window_end), "mean",
+                "95 % interval of the mean", "batches"},
+               rows);
+  out += paragraph(
+      "The total-to-static drop is what a test rig measures against the room: the losses and the speed that leaves. "
+      "The interval comes from the means of equal pieces of that time, the batches: longer runs give more.");
+  return out;
+}
+
+std::string outcome_section(const RunResults& run) {
+  std::string out = heading("Where the fines ended");
+  if (run.summary.fines.empty()) return out + left_out("this run has no fines.");
+  const FinesSummary& f = run.summary.fines[0];
+  BarChart chart{"fraction of the fines loaded", {}, 3};
+  for (const auto& [name, value] : {std::pair<std::string, double>{"FFE", f.FFE},
+                                    {"FFW", f.FFW},
+                                    {"FFCR", f.FFCR},
+                                    {"FFCE", f.FFCE},
+                                    {"in_air", f.in_air}}) {
+    BarGroup group{name, {{"this run", value, {}, {}}}};
+    for (const auto& row : run.summary.reference) {
+      const auto [source, quantity] = source_of(row.name);
+      if (quantity == name) group.bars.push_back({source, row.given, row.low, row.high});
+    }
+    chart.groups.push_back(group);
+  }
+  out += figure_svg(bar_chart(chart),
+                    "FFE free and emitted, FFW on the walls, FFCR on retained carriers, FFCE on emitted carriers, "
+                    "in_air still airborne at the end. Whiskers: the spread of the given value.");
+  Rows rows;
+  for (const auto& one : run.summary.fines) {
+    rows.push_back({escaped(one.name), significant(one.FFE), significant(one.FFW), significant(one.FFCR),
+                    significant(one.FFCE), significant(one.in_air), percent(one.by_mechanism.wall),
+                    percent(one.by_mechanism.particle), percent(one.by_mechanism.drag),
+                    significant(one.ledger_error, 2)});
+  }
+  return out + table({"scalar", "FFE", "FFW", "FFCR", "FFCE", "in_air", "detached by walls", "by carriers", "by drag",
+                      "ledger error"},
+                     rows);
+}
+
+}  // namespace puffin::output

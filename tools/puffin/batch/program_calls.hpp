@@ -1,0 +1,20 @@
+#pragma once
+// How a batch calls the program itself: for its runs, and for the replays of cases that share one.
+
+#include <string>
+#include <vector>
+
+#include "tools/puffin/batch/book.hpp"
+
+namespace puffin::tools {
+
+/// Of `puffin run` for a job that goes alone, with --resume where it can go on; of `puffin together` for a group with
+/// one flow, whose list it writes. preset: "" none.
+std::vector<std::string> run_arguments(const std::vector<std::size_t>& group, int threads, const std::string& preset,
+                                       const Jobs& plan, const Book& book);
+
+/// `puffin replay`, for each case of the job that differs from its run in the micro-models and has no tables yet. Warns
+/// if it fails.
+void replay_members(std::size_t job, const cases::Study& study, const Jobs& plan, const Book& book);
+
+}  // namespace puffin::tools
