@@ -28,6 +28,25 @@ double lowest_outlet(const Air& air, const Drive& drive) {
   return lowest;
 }
 
+/// Sums over what left a cell in the last step.
+struct Departed {
+  double density_excess = 0.0;
+  Vec3 momentum = Vec3::Zero();
+};
+
+/// Its population at rest is given, for walls may be at work on it.
+template <class T>
+Departed departed(const Run& run, std::ptrdiff_t slot, Parity last, double at_rest, const Populations<T>& p) {
+  Departed sum{at_rest};
+  for (int i = 1; i < d3q19::q; ++i) {
+    const double f = p.departed(run, slot, i, last);
+    const auto& c = d3q19::velocity[i];
+    sum.density_excess += f;
+    sum.momentum += f * Vec3(c[0], c[1], c[2]);
+  }
+  return sum;
+}
+
 }  // namespace
 
 template <class T>
@@ -89,33 +108,10 @@ void find_outlet_air(const Air& air, Parity last, std::size_t first, std::size_t
   for (std::size_t k = first; k < end; ++k) {
     if (k > first && list[k].slot == list[k - 1].slot) continue;
     const Run& run = air.rows.runs()[list[k].run];
-    double drho = 0.0;
-    Vec3 j = Vec3::Zero();
-    for (int i = 0; i < d3q19::q; ++i) {
-      const double f = p.departed(run, list[k].slot, i, last);
-      const auto& c = d3q19::velocity[i];
-      drho += f;
-      j += f * Vec3(c[0], c[1], c[2]);
-    }
-    state[k] = {drho, j / (1.0 + drho)};
+    const Departed sum = departed(run, list[k].slot, last, p.departed(run, list[k].slot, 0, last), p);
+    state[k] = {sum.density_excess, sum.momentum / (1.0 + sum.density_excess)};
   }
 }
-
-namespace {
-
-/// Momentum that left a cell in the last step; the population at rest has none, and walls may be at work on it.
-template <class T>
-Vec3 momentum_of(const Air& air, const OutletSource& cell, Parity last, const Populations<T>& p) {
-  const Run& run = air.rows.runs()[cell.run_behind];
-  Vec3 j = Vec3::Zero();
-  for (int i = 1; i < d3q19::q; ++i) {
-    const auto& c = d3q19::velocity[i];
-    j += static_cast<double>(p.departed(run, cell.behind, i, last)) * Vec3(c[0], c[1], c[2]);
-  }
-  return j;
-}
-
-}  // namespace
 
 template <class T>
 std::int64_t apply_outlets(const Air& air, const Drive& drive, const std::vector<OutletAir>& state, Parity last,
@@ -140,8 +136,8 @@ std::int64_t apply_outlets(const Air& air, const Drive& drive, const std::vector
       back = p.departed(air.rows.runs()[from.run], from.slot, d3q19::opposite(i), last) +
              2.0 * w * (outside - there.density_excess);
       if (source.behind >= 0 && c.dot(Vec3(out[0], out[1], out[2])) > 0.0) {
-        const Vec3 slope = (1.0 + there.density_excess) * there.velocity - momentum_of(air, source, last, p);
-        back -= 3.0 * w * c.dot(slope);
+        const Departed behind = departed(air.rows.runs()[source.run_behind], source.behind, last, 0.0, p);
+        back -= 3.0 * w * c.dot((1.0 + there.density_excess) * there.velocity - behind.momentum);
       }
     } else {
       Vec3 u = state[cell].velocity;
