@@ -93,6 +93,19 @@ inline void set_curl(Scene& s, const FluxOf& potential) {
   });
 }
 
+/// A jet that arrives at the cell (1,1,1) of a closed box in z, 0.2 through each face, and leaves in x and y, 0.1
+/// through each of four.
+inline Scene make_jet() {
+  Scene s = make_scene({3, 3, 3}, {false, false, false});
+  s.fluxes.mass[0][s.at(1, 1, 1)] = 0.1;
+  s.fluxes.mass[0][s.at(0, 1, 1)] = -0.1;
+  s.fluxes.mass[1][s.at(1, 1, 1)] = 0.1;
+  s.fluxes.mass[1][s.at(1, 0, 1)] = -0.1;
+  s.fluxes.mass[2][s.at(1, 1, 0)] = 0.2;
+  s.fluxes.mass[2][s.at(1, 1, 1)] = -0.2;
+  return s;
+}
+
 /// density -> density - steps * (net outflow), as a lattice would report it for the next update.
 inline void carry_density(Scene& s, double steps) {
   auto density = s.fluxes.density;

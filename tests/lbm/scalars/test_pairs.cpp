@@ -29,6 +29,15 @@ TEST(Pairs, in_a_uniform_flow_the_slowest_direction_takes_both_steps_at_once) {
   EXPECT_NEAR(limit.pair[2], 10.0, 1e-12);
 }
 
+TEST(Pairs, mind_the_air_that_earlier_sweeps_took_and_brought) {
+  // n steps for each half of the jet's pair. Around z, the cells that feed it lose most: 2n 0.2 <= cfl. Around x, of
+  // which the middle cell loses 2n 0.2: y has taken 0.2 n before, z has brought 0.4 n: 2n 0.2 <= cfl (1 + 0.2 n);
+  // around y likewise.
+  const StepLimit limit = limit_of(make_jet(), 0.3);
+  EXPECT_NEAR(limit.pair[2], 2.0 * 0.3 / 0.4, 1e-12);
+  for (const int c : {0, 1}) EXPECT_NEAR(limit.pair[c], 2.0 * 0.3 / (0.4 - 0.3 * 0.2), 1e-12);
+}
+
 TEST(Pairs, are_taken_where_they_save_sweeps) {
   StepLimit flow{5.0, {5.0, 6.0, 10.0}, 1.0};
   const StepsAllowed allowed = allowed_steps(flow, {{{}}}, {0}, 0.0);

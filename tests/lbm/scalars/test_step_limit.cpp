@@ -25,16 +25,9 @@ TEST(StepLimit, ignores_what_is_said_of_closed_faces) {
 }
 
 TEST(StepLimit, minds_the_air_that_earlier_sweeps_took) {
-  // A jet that arrives in z and leaves in x and y, 0.1 through each of four faces: after the x sweep 1 - 0.2 n is left,
-  // from which 0.2 n leaves in y: n 0.2 (1 + cfl) <= cfl. And after x and y together at least half must be left: n 0.4
-  // <= 0.5.
-  Scene s = make_scene({3, 3, 3}, {false, false, false});
-  s.fluxes.mass[0][s.at(1, 1, 1)] = 0.1;
-  s.fluxes.mass[0][s.at(0, 1, 1)] = -0.1;
-  s.fluxes.mass[1][s.at(1, 1, 1)] = 0.1;
-  s.fluxes.mass[1][s.at(1, 0, 1)] = -0.1;
-  s.fluxes.mass[2][s.at(1, 1, 0)] = 0.2;
-  s.fluxes.mass[2][s.at(1, 1, 1)] = -0.2;
+  // After the x sweep of the jet 1 - 0.2 n is left, from which 0.2 n leaves in y: n 0.2 (1 + cfl) <= cfl. And after x
+  // and y together at least half must be left: n 0.4 <= 0.5.
+  const Scene s = make_jet();
   EXPECT_NEAR(max_steps(s.rows, s.fluxes, 0.3), 0.3 / 0.26, 1e-12);
   EXPECT_NEAR(max_steps(s.rows, s.fluxes, 0.5), 1.25, 1e-12);
 }
