@@ -13,6 +13,7 @@ namespace {
 
 using Eigen::Vector3d;
 using lbm::geometry::Feature;
+using lbm::geometry::NearTriangle;
 using lbm::geometry::TriangleMesh;
 using lbm::geometry::TriangleTree;
 
@@ -90,11 +91,12 @@ MeshWalls::Node MeshWalls::nearest_node(const Vector3d& p) const {
           (p - place).norm(), place};
 }
 
-void MeshWalls::near(const Vector3d& centre, double reach, std::vector<dem::WallTouch>& touches) const {
+dem::RestOfWall MeshWalls::near(const Vector3d& centre, double reach, std::vector<dem::WallTouch>& touches) const {
   touches.clear();
   static thread_local std::vector<Feature> features;
-  features.clear();
-  tree_->near_features(centre, reach, &opening_, features, lbm::geometry::Side::inner);
+  static thread_local std::vector<NearTriangle> triangles;
+  features.clear(), triangles.clear();
+  tree_->near_features(centre, reach, &opening_, features, lbm::geometry::Side::inner, &triangles);
   std::sort(features.begin(), features.end(), [](const Feature& a, const Feature& b) {
     return a.distance != b.distance ? a.distance < b.distance : a.triangle < b.triangle;
   });
@@ -105,6 +107,27 @@ void MeshWalls::near(const Vector3d& centre, double reach, std::vector<dem::Wall
     });
     if (!same) touches.push_back({f.point, f.distance, f.triangle});
   }
+  dem::RestOfWall rest;
+  for (const NearTriangle& t : triangles) {
+    if (lies_on_a_plane(t, centre, reach, touches)) continue;
+    rest.distance = std::min(rest.distance, t.distance);
+    for (const dem::WallTouch& touch : touches) {
+      const double lead = t.distance - touch.distance;  // of a triangle at the edge or corner that is touched: rounding
+      if (lead >= -1e-6 * touch.distance) rest.lead = std::min(rest.lead, std::max(0.0, lead));
+    }
+  }
+  return rest;
+}
+
+bool MeshWalls::lies_on_a_plane(const NearTriangle& t, const Vector3d& centre, double reach,
+                                const std::vector<dem::WallTouch>& touches) const {
+  constexpr double same_plane = 1e-4;  // angle [rad], and of the reach: an overlap of a micrometre is known to 1 %
+  const Vector3d outward = tree_->mesh().area_vector(t.triangle).stableNormalized();
+  return std::any_of(touches.begin(), touches.end(), [&](const dem::WallTouch& touch) {
+    const Vector3d away = centre - touch.point;
+    return away.cross(outward).squaredNorm() <= same_plane * same_plane * touch.distance * touch.distance &&
+           std::abs(outward.dot(t.point - touch.point)) <= same_plane * reach;
+  });
 }
 
 double MeshWalls::clearance(const Vector3d& centre, double limit) const {

@@ -21,7 +21,7 @@ class MeshWalls : public dem::Walls {
                      double smooth_angle = 0.26);
 
   /// Walls are felt from the enclosed side only: never through a thin wall, and not by a centre in the solid.
-  void near(const Eigen::Vector3d& centre, double reach, std::vector<dem::WallTouch>& touches) const override;
+  dem::RestOfWall near(const Eigen::Vector3d& centre, double reach, std::vector<dem::WallTouch>& touches) const override;
   /// From a grid of distances d_i at nodes x_i: d >= d_i - |centre - x_i|, at the nearest node. Openings do not count.
   double clearance(const Eigen::Vector3d& centre, double limit) const override;
   /// In the enclosed volume, or outside it with an opening as the nearest surface.
@@ -49,6 +49,9 @@ class MeshWalls : public dem::Walls {
   Node nearest_node(const Eigen::Vector3d& p) const;
   Eigen::Vector3d node_at(int i, int j, int k) const;
   bool enclosed(const Eigen::Vector3d& point) const;
+  /// The triangle, where it is nearest to the centre, lies on the plane of one of the touches.
+  bool lies_on_a_plane(const lbm::geometry::NearTriangle& t, const Eigen::Vector3d& centre, double reach,
+                       const std::vector<dem::WallTouch>& touches) const;
   void measure_distances();
 };
 

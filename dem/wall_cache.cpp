@@ -9,7 +9,10 @@ namespace {
 // Around an edge or a corner the plane's direction is off by s/R after the way s, and so is that of a push: with s =
 // 0.01 R by half a degree. On a face it is exact, so the trusted way grows while the planes prove exact.
 constexpr double first_trust = 0.001, growth = 4.0, largest_trust = 0.2;  // in radii
-constexpr double exact = 1e-9;                                            // in radii
+// Beside an edge between flat faces another face takes over where the two are equally far. After the way s past that
+// place the overlap is off by s times the sine of the angle between them, less than 0.26 where one contact serves both.
+constexpr double least_trust = 1e-4;  // in radii
+constexpr double exact = 1e-9;        // in radii
 
 /// True if every new touch lies on a plane that was known already.
 bool planes_were_exact(const std::vector<WallTouch>& touches, const WallCache& cache, const Eigen::Vector3d& centre,
@@ -44,9 +47,12 @@ void look_at_walls(const Walls& walls, const Eigen::Vector3d& centre, double rad
     return;
   }
   const double reach = need + std::max(0.5 * radius, travel);
-  walls.near(centre, reach, touches);
+  const RestOfWall rest = walls.near(centre, reach, touches);
   const bool were_exact = cache.clear >= 0.0 && planes_were_exact(touches, cache, centre, radius);
   cache.trust = were_exact ? std::min(growth * cache.trust, largest_trust * radius) : first_trust * radius;
+  // On a way s a place that is not listed comes nearer by at most s, and a listed one goes away by at most s.
+  const double unchanged = std::max(0.5 * rest.lead, rest.distance - radius);
+  cache.trust = std::min(cache.trust, std::max(unchanged, least_trust * radius));
   cache.asked_at = centre;
   cache.clear = reach;
   cache.planes.clear();

@@ -36,6 +36,12 @@ class Gatherer {
     scratch_.distances.push_back({nearest, d2});
   }
 
+  void list(std::vector<NearTriangle>& triangles) const {
+    for (std::size_t n = 0; n < scratch_.met.size(); ++n)
+      triangles.push_back(
+          {scratch_.distances[n].nearest.point, std::sqrt(scratch_.distances[n].squared), scratch_.met[n]});
+  }
+
   void gather() {
     for (std::size_t n = 0; n < scratch_.met.size(); ++n) {
       const auto& [nearest, d2] = scratch_.distances[n];
@@ -139,7 +145,7 @@ class Gatherer {
 }  // namespace
 
 void TriangleTree::near_features(const Vec3& centre, double reach, const std::vector<char>* skip_triangle,
-                                 std::vector<Feature>& out, Side side) const {
+                                 std::vector<Feature>& out, Side side, std::vector<NearTriangle>* triangles) const {
   struct Query {
     const TriangleTree& tree;
     Gatherer gatherer;
@@ -155,6 +161,7 @@ void TriangleTree::near_features(const Vec3& centre, double reach, const std::ve
   };
   tree_searches().all(s);
   query.gatherer.gather();
+  if (triangles != nullptr) query.gatherer.list(*triangles);
 }
 
 }  // namespace puffin::lbm::geometry

@@ -35,6 +35,13 @@ struct Feature {
   int triangle = -1;      // a triangle that holds the point
 };
 
+/// A triangle within reach of a sphere's centre.
+struct NearTriangle {
+  Vec3 point = Vec3::Zero();  // of it, nearest to the centre
+  double distance = 0.0;      // [m] >= 0
+  int triangle = -1;
+};
+
 /// Which side of the surface counts in near_features.
 enum class Side {
   both,
@@ -74,9 +81,10 @@ class TriangleTree {
   /// Appends every contact place within `reach` [m] of `centre`, each once: faces, and those edges and vertices (given
   /// as the lowest of their triangles) that are a local minimum of the distance over all triangles that share them (so
   /// never an edge between coplanar triangles or in a concave corner). Triangles t with (*skip_triangle)[t] != 0 do not
-  /// exist for this query. The mesh must be welded.
+  /// exist for this query. The mesh must be welded. `triangles`: gets every triangle within reach, of either side.
   void near_features(const Vec3& centre, double reach, const std::vector<char>* skip_triangle,
-                     std::vector<Feature>& out, Side side = Side::both) const;
+                     std::vector<Feature>& out, Side side = Side::both,
+                     std::vector<NearTriangle>* triangles = nullptr) const;
 
   /// Triangles whose bounding boxes overlap the box [low, high], in no special order; appended to `out`.
   void overlapping(const Vec3& low, const Vec3& high, std::vector<int>& out) const;

@@ -29,9 +29,10 @@ std::string joined(const std::vector<std::string>& lines) {
 /// A floor at z = 0 without end.
 class Floor : public dem::Walls {
  public:
-  void near(const Vec3& c, double reach, std::vector<dem::WallTouch>& touches) const override {
+  dem::RestOfWall near(const Vec3& c, double reach, std::vector<dem::WallTouch>& touches) const override {
     touches.clear();
     if (c.z() <= reach) touches.push_back({{c.x(), c.y(), 0.0}, c.z(), 0});
+    return {};
   }
   double clearance(const Vec3& c, double limit) const override { return std::clamp(c.z(), 0.0, limit); }
   bool inside(const Vec3& c) const override { return c.z() > 0.0; }

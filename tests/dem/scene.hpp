@@ -24,13 +24,14 @@ class PlaneWalls : public Walls {
     }
     return PlaneWalls(planes);
   }
-  void near(const Eigen::Vector3d& centre, double reach, std::vector<WallTouch>& touches) const override {
+  RestOfWall near(const Eigen::Vector3d& centre, double reach, std::vector<WallTouch>& touches) const override {
     touches.clear();
     for (std::size_t i = 0; i < planes_.size(); ++i) {
       const double distance = planes_[i].normal.dot(centre - planes_[i].point);
       if (std::abs(distance) <= reach)
         touches.push_back({centre - distance * planes_[i].normal, std::abs(distance), static_cast<int>(i)});
     }
+    return {};
   }
   double clearance(const Eigen::Vector3d& centre, double limit) const override {
     double nearest = limit;

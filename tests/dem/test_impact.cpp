@@ -32,9 +32,10 @@ double wall_restitution(double e, double speed, double step, double length = 1.0
 /// A single point, as the tip of a needle: what an edge or a corner is to a sphere.
 class Needle : public Walls {
  public:
-  void near(const Vector3d& centre, double reach, std::vector<WallTouch>& touches) const override {
+  RestOfWall near(const Vector3d& centre, double reach, std::vector<WallTouch>& touches) const override {
     touches.clear();
     if (centre.norm() <= reach) touches.push_back({Vector3d::Zero(), centre.norm(), 0});
+    return {};
   }
   double clearance(const Vector3d& centre, double limit) const override { return std::min(limit, centre.norm()); }
   bool inside(const Vector3d&) const override { return false; }

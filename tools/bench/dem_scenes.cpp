@@ -63,7 +63,7 @@ void scatter(std::int64_t count, double solid_fraction, double speed, DemScene& 
 
 }  // namespace
 
-void BoxWalls::near(const Vector3d& centre, double reach, std::vector<dem::WallTouch>& touches) const {
+dem::RestOfWall BoxWalls::near(const Vector3d& centre, double reach, std::vector<dem::WallTouch>& touches) const {
   touches.clear();
   for (int d = 0; d < 3; ++d)
     for (const double wall : {0.0, size_[d]}) {
@@ -73,6 +73,7 @@ void BoxWalls::near(const Vector3d& centre, double reach, std::vector<dem::WallT
       point[d] = wall;
       touches.push_back({point, distance, 2 * d + (wall > 0.0)});
     }
+  return {};
 }
 
 double BoxWalls::clearance(const Vector3d& centre, double limit) const {
