@@ -32,11 +32,6 @@ std::vector<std::optional<double>> fixed_values(const Simulation& s, const std::
   for (const ScalarBoundary& b : s.description.fines->boundaries) {
     if (b.scalar != scalar) continue;
     const int patch = s.surface.patches.find(b.patch);
-    const auto& drive = s.models.patches.at(static_cast<std::size_t>(patch));
-    if (!drive.is_inlet && !drive.is_outlet)
-      throw std::invalid_argument("fines.boundary: patch '" + b.patch +
-                                  "' is no opening; a value can be held on velocity-inlets and pressure-outlets, and a "
-                                  "wall takes what reaches it with wall = \"absorb\" in [[fines.scalar]]");
     values.resize(s.models.patches.size());
     values[static_cast<std::size_t>(patch)] = b.value * std::pow(s.dx, 3);
   }

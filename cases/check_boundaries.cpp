@@ -47,13 +47,25 @@ class Checks {
       if (patch != "wall") need("output.force", patch);
     if (c_.fines)
       for (std::size_t i = 0; i < c_.fines->boundaries.size(); ++i)
-        need("fines.boundary[" + std::to_string(i) + "].patch", c_.fines->boundaries[i].patch);
+        held_value("fines.boundary[" + std::to_string(i) + "].patch", c_.fines->boundaries[i].patch);
     return std::move(problems_);
   }
 
  private:
   void say(const std::string& key, const std::string& text) {
     problems_.push_back(problem_at(c_, key, key + ": " + text));
+  }
+
+  void held_value(const std::string& key, const std::string& patch) {
+    const auto& given = c_.air.boundaries;
+    const bool opening = std::any_of(given.begin(), given.end(), [&](const Boundary& b) {
+      return b.patch == patch && (b.type == BoundaryType::velocity_inlet || b.type == BoundaryType::pressure_outlet);
+    });
+    if (need(key, patch) && !opening)
+      say(key,
+          "'" + patch +
+              "' is no opening; a value can be held on velocity-inlets and pressure-outlets, and a wall takes what "
+              "reaches it with wall = \"absorb\" in [[fines.scalar]]");
   }
 
   bool need(const std::string& key, const std::string& name) {

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "cases/check_boundaries.hpp"
 #include "cases/size_distribution.hpp"
 
 namespace puffin::cases {
@@ -28,7 +29,7 @@ Floor floor_of(const Surface& surface, const std::string& patch, const Vec3& gra
   for (int t = 0; t < static_cast<int>(surface.mesh.triangles.size()); ++t)
     if (surface.patches.of_triangle[t] == wanted && faces_down(t)) lowest = std::max(lowest, depth(t));
   if (lowest == -1e300)
-    throw std::invalid_argument("carriers.fill.at: the patch '" + patch +
+    throw std::invalid_argument("the patch '" + patch +
                                 "' has no face that carriers can lie on; give a point [x, y, z] instead");
   Floor floor;
   double area = 0.0;
@@ -70,7 +71,7 @@ Dose dose_of(const Case& described, const Surface& surface, const lbm::geometry:
   if (c.fill->shape == FillShape::file) {
     spec.floor_diameter = 0.0;
   } else if (const auto* patch = std::get_if<std::string>(&c.fill->at)) {
-    const Floor floor = floor_of(surface, *patch, c.gravity);
+    const Floor floor = from_file(described, "carriers.fill.at", [&] { return floor_of(surface, *patch, c.gravity); });
     spec.floor = floor.centre;
     spec.floor_diameter = floor.diameter;
   } else {
@@ -79,8 +80,10 @@ Dose dose_of(const Case& described, const Surface& surface, const lbm::geometry:
     const double pitch = (1.0 + spec.gap) * parcel_diameter(spec.diameter, c.parcel);
     spec.floor_diameter = pitch * std::cbrt(4.0 / std::numbers::pi * static_cast<double>(c.count) / c.parcel) * 1.1;
   }
-  return place_dose(
-      spec, [&](const Vec3& x) { return tree.inside(x); }, [&](const Vec3& x) { return tree.closest(x).distance; });
+  return from_file(described, "carriers.fill", [&] {
+    return place_dose(
+        spec, [&](const Vec3& x) { return tree.inside(x); }, [&](const Vec3& x) { return tree.closest(x).distance; });
+  });
 }
 
 }  // namespace puffin::cases

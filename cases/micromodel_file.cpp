@@ -55,12 +55,23 @@ micromodels::TableLaw read_table(const std::string& file, bool may_fall, Validit
   return micromodels::TableLaw(speeds, angles, values, may_fall, valid);
 }
 
+/// The law that `make` makes; what it refuses is a mistake at `key`.
+template <class Make>
+Law law_of(Fields& io, const char* key, Validity valid, const Make& make) {
+  try {
+    return make();
+  } catch (const std::invalid_argument& e) {
+    io.problem(key, e.what());
+    return micromodels::PowerLaw({}, valid);
+  }
+}
+
 Law power_law(Fields& io, Validity valid) {
   std::vector<double> a(5, 0.0);
   io.numbers("A", a, 5, unit::number, required);
   std::array<double, 5> constants{};
   std::copy_n(a.begin(), std::min<std::size_t>(a.size(), 5), constants.begin());
-  return micromodels::PowerLaw(constants, valid);
+  return law_of(io, "A", valid, [&] { return micromodels::PowerLaw(constants, valid); });
 }
 
 Law table_law(Fields& io, Validity valid) {
@@ -69,7 +80,7 @@ Law table_law(Fields& io, Validity valid) {
   io.file("file", file, {});
   io.flag("may_fall", may_fall, otherwise(false));
   if (file.empty()) return micromodels::PowerLaw({}, valid);  // reported: the file is missing
-  return read_table(file, may_fall, valid);
+  return law_of(io, "file", valid, [&] { return read_table(file, may_fall, valid); });
 }
 
 Law weibull_law(Fields& io, Validity valid) {

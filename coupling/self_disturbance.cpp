@@ -20,6 +20,7 @@ double tabulated_oseen(double r) {
     }
     return t;
   }();
+  if (!(r < 1e12)) return table[places];
   const double at = r / (1.0 + r) * places;
   const int n = std::min(static_cast<int>(at), places - 1);
   return table[n] + (at - n) * (table[n + 1] - table[n]);

@@ -9,6 +9,7 @@ namespace puffin::cases::format {
 namespace {
 
 constexpr const char* as_carriers = "as between carriers";
+constexpr double fastest = 1000.0;  // [m/s]
 
 /// The default of a key, or, for the tables of [carriers.walls], the carriers' own value.
 template <class T>
@@ -45,6 +46,9 @@ void describe_friction(Fields& io, Friction& friction, const Friction* base) {
     t.number("slip_speed", f.slip_speed, unit::velocity, Range::positive, fallback(&VelocityFriction::slip_speed));
     t.number("limit", f.limit, unit::number, Range::non_negative, fallback(&VelocityFriction::limit));
     t.number("limit_speed", f.limit_speed, unit::velocity, Range::positive, fallback(&VelocityFriction::limit_speed));
+    const bool said = b && b->limit_speed <= b->slip_speed;  // of the carriers, whose values these are
+    if (f.limit_speed <= f.slip_speed && f.limit_speed > 0.0 && !said)
+      t.problem("limit_speed", "must be above slip_speed: friction falls from 'slip' to 'limit' between the two");
   });
   if (!features.velocity_friction) io.problem("friction", "velocity-dependent friction is not part of this version");
 }
@@ -166,6 +170,7 @@ void describe_list(Fields& io, Carriers& c) {
   io.list("list", c.list, [&](Fields& f, ListedCarrier& p) {
     f.vector("position", p.position, unit::length, required);
     f.vector("velocity", p.velocity, unit::velocity, otherwise(Vec3(0, 0, 0)));
+    if (!(p.velocity.norm() <= fastest)) f.problem("velocity", "is faster than 1000 m/s, which no carrier in air is");
     f.vector("spin", p.spin, unit::angular_velocity, otherwise(Vec3(0, 0, 0)));
     f.number("diameter", p.diameter, unit::length, Range::positive, common(c.diameter, "carriers.diameter"));
     f.number("density", p.density, unit::density, Range::positive, common(c.density, "carriers.density"));
@@ -196,6 +201,9 @@ void describe_diameter(Fields& io, Carriers& c) {
     if (d.law == SizeLaw::log_normal) {
       t.number("median", d.median, unit::length, Range::positive, required);
       t.number("sigma", d.sigma, unit::number, Range::non_negative, required);
+      if (d.sigma > 1.0)
+        t.problem("sigma",
+                  "is the deviation of ln(diameter); at most 1, where one carrier in forty is 7 times the median");
     } else if (d.law == SizeLaw::rosin_rammler) {
       t.number("scale", d.scale, unit::length, Range::positive, required);
       t.number("exponent", d.exponent, unit::number, Range::positive, required);

@@ -111,8 +111,9 @@ TEST(HeldValues, OfWallsAreRefusedWithARemedy) {
     scene(uniform, through,
           "diffusion = \"1e-6 kg/(m s)\"\n[[fines.boundary]]\npatch = \"z-min\"\nscalar = \"cloud\"\nvalue = 1.0\n");
     FAIL();
-  } catch (const std::invalid_argument& e) {
+  } catch (const CaseError& e) {
     EXPECT_NE(std::string(e.what()).find("wall = \"absorb\""), std::string::npos) << e.what();
+    EXPECT_EQ(e.problems.at(0).key, "fines.boundary[0].patch");
   }
 }
 

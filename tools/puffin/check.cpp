@@ -24,8 +24,7 @@ namespace puffin::tools {
 namespace {
 
 /// Places outside the geometry are problems, a dose that does not fit is one; what starts deep in a wall is a warning.
-void check_places(const cases::Case& c, const std::string& file, const cases::Surface& surface,
-                  cases::Assessment& assessment) {
+void check_places(const cases::Case& c, const cases::Surface& surface, cases::Assessment& assessment) {
   const bool lists = c.carriers && !c.carriers->list.empty();
   const bool places = !c.output.probes.empty() || !c.output.planes.empty() || !c.output.fields.empty();
   const bool fills = c.carriers && c.carriers->fill;
@@ -34,8 +33,8 @@ void check_places(const cases::Case& c, const std::string& file, const cases::Su
   auto problems = cases::carrier_place_problems(c, tree);
   if (fills) try {
       cases::dose_of(c, surface, tree);
-    } catch (const std::invalid_argument& e) {
-      problems.push_back({file, 0, 0, "", e.what()});
+    } catch (const cases::CaseError& e) {
+      problems.insert(problems.end(), e.problems.begin(), e.problems.end());
     }
   if (assessment.lattice)
     for (auto& p : cases::output_place_problems(c, tree, assessment.lattice->dx)) problems.push_back(std::move(p));
@@ -62,7 +61,7 @@ int check_case(const CaseArguments& a) {
   if (const auto* run = std::get_if<cases::RunField>(&c.air.frozen); run && c.air.model == cases::AirModel::frozen)
     cases::from_file(c, "air.field", [&] { return read_stored_field(*run); });
   cases::Assessment assessment = cases::assess(c, surface);
-  check_places(c, a.file.string(), surface, assessment);
+  check_places(c, surface, assessment);
   check_stability(c, assessment);
   for (const lbm::geometry::Defect& d : surface.defects) assessment.warnings.push_back(d.kind + ": " + d.message);
   const std::vector<std::string> assumed = cases::assumptions(c);
