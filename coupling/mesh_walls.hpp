@@ -21,7 +21,8 @@ class MeshWalls : public dem::Walls {
                      double smooth_angle = 0.26);
 
   /// Walls are felt from the enclosed side only: never through a thin wall, and not by a centre in the solid.
-  dem::RestOfWall near(const Eigen::Vector3d& centre, double reach, std::vector<dem::WallTouch>& touches) const override;
+  dem::RestOfWall near(const Eigen::Vector3d& centre, double reach,
+                       std::vector<dem::WallTouch>& touches) const override;
   /// From a grid of distances d_i at nodes x_i: d >= d_i - |centre - x_i|, at the nearest node. Openings do not count.
   double clearance(const Eigen::Vector3d& centre, double limit) const override;
   /// In the enclosed volume, or outside it with an opening as the nearest surface.

@@ -16,7 +16,8 @@ namespace puffin::bench {
 class BoxWalls : public dem::Walls {
  public:
   explicit BoxWalls(const Eigen::Vector3d& size) : size_(size) {}
-  dem::RestOfWall near(const Eigen::Vector3d& centre, double reach, std::vector<dem::WallTouch>& touches) const override;
+  dem::RestOfWall near(const Eigen::Vector3d& centre, double reach,
+                       std::vector<dem::WallTouch>& touches) const override;
   double clearance(const Eigen::Vector3d& centre, double limit) const override;
   bool inside(const Eigen::Vector3d& point) const override;
   const Eigen::Vector3d& size() const { return size_; }
