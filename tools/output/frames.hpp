@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace puffin::output {
@@ -50,9 +51,10 @@ struct WallFrame {
   std::vector<std::array<int, 3>> triangles;    // indices into vertices
   std::vector<std::int32_t> patch;              // per triangle: index into patches
   std::vector<WallPatch> patches;
-  std::vector<float> fines;   // per triangle: number of fines per area [1/m^2]; may be empty
-  std::vector<float> hits;    // per triangle: number of carrier impacts [-]; may be empty
-  std::vector<float> energy;  // per triangle: sum of the impact energies [J]; may be empty
+  std::vector<double> fines;   // per triangle: number of fines per area [1/m^2], of the first scalar; may be empty
+  std::vector<double> hits;    // per triangle: number of carrier impacts [-]; may be empty
+  std::vector<double> energy;  // per triangle: sum of the impact energies [J]; may be empty
+  std::vector<std::pair<std::string, std::vector<double>>> further_fines;  // as fines: name and map of each further scalar
 };
 
 }  // namespace puffin::output

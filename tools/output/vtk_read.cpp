@@ -170,12 +170,18 @@ WallFrame read_wall_frame(const std::filesystem::path& file) {
   }
   frame.patch = values_of<std::int32_t>(data, "patch");
   if (frame.patch.size() != frame.triangles.size()) throw OutputError(file.string() + " has no cell array 'patch'");
-  frame.fines = values_of<float>(data, "fines");
-  frame.hits = values_of<float>(data, "hits");
-  frame.energy = values_of<float>(data, "energy");
+  frame.fines = values_of<double>(data, "fines");
+  frame.hits = values_of<double>(data, "hits");
+  frame.energy = values_of<double>(data, "energy");
   demand_length(file, "fines", frame.fines.size(), frame.triangles.size());
   demand_length(file, "hits", frame.hits.size(), frame.triangles.size());
   demand_length(file, "energy", frame.energy.size(), frame.triangles.size());
+  for (int i = 0; i < data->GetNumberOfArrays(); ++i) {
+    const std::string name = data->GetArrayName(i) ? data->GetArrayName(i) : "";
+    if (name.rfind("fines_", 0) != 0) continue;
+    frame.further_fines.emplace_back(name.substr(6), values_of<double>(data, name));
+    demand_length(file, name, frame.further_fines.back().second.size(), frame.triangles.size());
+  }
   auto* names = vtkStringArray::SafeDownCast(poly->GetFieldData()->GetAbstractArray("patch_names"));
   const std::vector<int> openings = values_of<int>(poly->GetFieldData(), "patch_opening");
   for (vtkIdType i = 0; names && i < names->GetNumberOfValues(); ++i) {

@@ -3,6 +3,7 @@
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkDataSetAttributes.h>
+#include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
 #include <vtkFloatArray.h>
 #include <vtkImageData.h>
@@ -154,14 +155,15 @@ void write_vtp(const std::filesystem::path& file, const WallFrame& frame) {
   vtkCellData* data = poly->GetCellData();
   check_length("patch", frame.patch.size(), n);
   add_array<vtkIntArray>(data, "patch", n, 1, [&](std::size_t i, int) { return frame.patch[i]; });
-  const auto add = [&](const char* name, const std::vector<float>& values) {
+  const auto add = [&](const std::string& name, const std::vector<double>& values) {
     if (values.empty()) return;
     check_length(name, values.size(), n);
-    add_array<vtkFloatArray>(data, name, n, 1, [&](std::size_t i, int) { return values[i]; });
+    add_array<vtkDoubleArray>(data, name, n, 1, [&](std::size_t i, int) { return values[i]; });
   };
   add("fines", frame.fines);
   add("hits", frame.hits);
   add("energy", frame.energy);
+  for (const auto& [scalar, map] : frame.further_fines) add("fines_" + scalar, map);
   vtkNew<vtkStringArray> names;
   names->SetName("patch_names");
   vtkNew<vtkUnsignedCharArray> openings;

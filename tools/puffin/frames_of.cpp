@@ -107,13 +107,22 @@ output::WallFrame wall_frame(const cases::Simulation& s) {
     frame.patches.push_back({s.models.patches[p].patch, s.models.patches[p].is_inlet || s.models.patches[p].is_outlet});
   const bool carried = s.state.scalars.scalars() > 0;
   if (!carried && !s.description.carriers) return frame;
-  const std::vector<double> stuck =
-      carried ? coupling::wall_map(s.state.fines, s.state.budget, 0, s.models.triangle_of_slot) : s.state.fines.stuck;
+  const auto per_area = [&](std::vector<double> map) {
+    for (std::size_t t = 0; t < map.size(); ++t)
+      if (map[t] != 0.0) map[t] /= mesh.area(static_cast<int>(t));  // nothing lands on a triangle without area
+    return map;
+  };
+  const auto stuck = [&](int set) {
+    return coupling::wall_map(s.state.fines, s.state.budget, set, s.models.triangle_of_slot);
+  };
+  frame.fines = per_area(carried ? stuck(0) : s.state.fines.stuck);
+  if (carried)
+    for (std::size_t k = 1; k < s.description.fines->scalars.size(); ++k)
+      frame.further_fines.emplace_back(s.description.fines->scalars[k].name, per_area(stuck(static_cast<int>(k))));
+  if (!s.description.carriers) return frame;  // fines of the inflow alone: nothing hits the walls
   for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
-    frame.fines.push_back(static_cast<float>(stuck[t] / mesh.area(t)));
-    if (!s.description.carriers) continue;  // fines of the inflow alone: nothing hits the walls
-    frame.hits.push_back(static_cast<float>(s.state.collisions.hits[t]));
-    frame.energy.push_back(static_cast<float>(s.state.collisions.energy[t]));
+    frame.hits.push_back(s.state.collisions.hits[t]);
+    frame.energy.push_back(s.state.collisions.energy[t]);
   }
   return frame;
 }

@@ -42,9 +42,10 @@ WallFrame two_triangles() {
   f.triangles = {{0, 1, 2}, {1, 3, 2}};
   f.patch = {0, 1};
   f.patches = {{"wall", false}, {"outlet", true}};
-  f.fines = {1e9f, 0};
+  f.fines = {1e9 / 3.0, 0};
+  f.further_fines = {{"slow", {1e8 / 7.0, 0}}};
   f.hits = {12, 0};
-  f.energy = {1e-9f, 0};
+  f.energy = {1e-9 / 3.0, 0};
   return f;
 }
 

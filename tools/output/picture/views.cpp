@@ -200,7 +200,7 @@ Canvas wall_map_picture(const WallFrame& walls, const std::string& quantity, con
   const bool hits = quantity == "hits", energy = quantity == "energy";
   if (!hits && !energy && quantity != "fines")
     throw std::invalid_argument("no wall quantity '" + quantity + "'; there are fines, hits and energy");
-  const std::vector<float>& values = hits ? walls.hits : energy ? walls.energy : walls.fines;
+  const std::vector<double>& values = hits ? walls.hits : energy ? walls.energy : walls.fines;
   if (values.empty()) throw std::invalid_argument("this wall map holds no " + quantity);
   // Hits and energies are sums of a triangle; over its area they can be compared between small and large ones.
   std::vector<double> per_area(values.size());
