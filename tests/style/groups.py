@@ -22,13 +22,13 @@ NO_NAMES = re.compile(r"[\s}/#)]|using |namespace |template <[^>]*>$|static_asse
 
 def private_names(text: str) -> set[str]:
     names = set()
+    for line in re.findall(r"^const.*", text, re.MULTILINE):  # private wherever it stands
+        names.update(re.findall(r"(\w+)(?:\[[^\]]*\])*(?: =|\{|\()", line))
     for line in (line for block in PRIVATE.findall(text) for line in block.split("\n")):
-        if NO_NAMES.match(line):
+        if NO_NAMES.match(line) or line.startswith("const"):
             continue
         if found := TYPE.match(line):
             names.add(found.group(1))
-        elif line.startswith("const"):  # several on a line
-            names.update(re.findall(r"(\w+)(?:\[[^\]]*\])*(?: =|\{|\()", line))
         elif found := OTHER.search(line):
             names.add(found.group(1))
     return names - OVERLOADED | set(re.findall(r"^static .*?(\w+)\(", text, re.MULTILINE))
