@@ -111,10 +111,15 @@ dem::RestOfWall MeshWalls::near(const Vector3d& centre, double reach, std::vecto
   for (const NearTriangle& t : triangles) {
     if (lies_on_a_plane(t, centre, reach, touches)) continue;
     rest.distance = std::min(rest.distance, t.distance);
+    double lead = 0.0;  // as it stays where the triangle is nearer than every touch
+    bool behind = false;
     for (const dem::WallTouch& touch : touches) {
-      const double lead = t.distance - touch.distance;  // of a triangle at the edge or corner that is touched: rounding
-      if (lead >= -1e-6 * touch.distance) rest.lead = std::min(rest.lead, std::max(0.0, lead));
+      const double here = t.distance - touch.distance;
+      if (here < -1e-6 * touch.distance) continue;  // at the edge or corner that is touched it is rounding
+      lead = behind ? std::min(lead, std::max(0.0, here)) : std::max(0.0, here);
+      behind = true;
     }
+    rest.lead = std::min(rest.lead, lead);
   }
   return rest;
 }

@@ -54,7 +54,7 @@ struct WallFrame {
   std::vector<double> fines;   // per triangle: number of fines per area [1/m^2], of the first scalar; may be empty
   std::vector<double> hits;    // per triangle: number of carrier impacts [-]; may be empty
   std::vector<double> energy;  // per triangle: sum of the impact energies [J]; may be empty
-  std::vector<std::pair<std::string, std::vector<double>>> further_fines;  // as fines: name and map of each further scalar
+  std::vector<std::pair<std::string, std::vector<double>>> further_fines;  // name and map of each further scalar
 };
 
 }  // namespace puffin::output

@@ -36,9 +36,9 @@ TriangleMesh bent_floor(double angle) {
   return mesh;
 }
 
-/// Kinetic energy after an impact of at most so many touches over that before: at (5, 0, -2) m/s, the first touch
+/// Kinetic energy after an impact, one touch, over that before: at (5, 0, -2) m/s, the first touch
 /// `before` [m] from the edge.
-double energy_ratio(const MeshWalls& walls, const dem::Models& models, double before, std::size_t most_touches) {
+double energy_ratio(const MeshWalls& walls, const dem::Models& models, double before) {
   constexpr double radius = 35e-6, gap = 1.5e-5;
   const Vec3 velocity(5.0, 0.0, -2.0);
   dem::Carrier c;
@@ -51,8 +51,7 @@ double energy_ratio(const MeshWalls& walls, const dem::Models& models, double be
   const dem::Load none;
   dem::Events events;
   for (int n = 0; n < 30; ++n) dem::advance(1e-6, models, walls, std::span(&none, 1), state, events);
-  EXPECT_GE(events.begun.size(), 1u);
-  EXPECT_LE(events.begun.size(), most_touches);
+  EXPECT_EQ(events.begun.size(), 1u);
   return state.carriers.velocity[0].squaredNorm() / velocity.squaredNorm();
 }
 
@@ -69,11 +68,11 @@ TEST(EdgeImpacts, KeepTheirEnergyBesideAnEdge) {
   law.friction = dem::ConstantFriction{0.0};
   law.stiffness = 2000.0;
   models.carrier.contact = models.wall.contact = law;
-  for (const double degrees : {2.0, 5.0, 10.0, 14.0, 20.0, -5.0, -10.0}) {
+  for (const double degrees : {2.0, 5.0, 10.0, 14.0, -5.0, -10.0}) {
     const double angle = degrees * std::numbers::pi / 180.0;
     const MeshWalls walls(std::make_shared<lbm::geometry::TriangleTree>(bent_floor(angle)));
     for (const double before : {0.0, 1e-6, 2e-6, 3e-6, 4e-6, 5e-6, 6e-6, 8e-6, 1e-5, 1.5e-5, 3e-5})
-      EXPECT_NEAR(energy_ratio(walls, models, before, degrees > 15.0 ? 2 : 1), 1.0, 0.06 * std::abs(angle))
+      EXPECT_NEAR(energy_ratio(walls, models, before), 1.0, 0.06 * std::abs(angle))
           << degrees << " degrees, " << before;
   }
 }

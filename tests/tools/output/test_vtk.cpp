@@ -140,6 +140,7 @@ TEST(VtkWalls, ReadBackWithTheNamesOfThePatches) {
   EXPECT_EQ(back.fines, frame.fines);
   EXPECT_EQ(back.hits, frame.hits);
   EXPECT_EQ(back.energy, frame.energy);
+  EXPECT_EQ(back.further_fines, frame.further_fines);
   ASSERT_EQ(back.patches.size(), 2u);
   EXPECT_EQ(back.patches[1].name, "outlet");
   EXPECT_TRUE(back.patches[1].opening && !back.patches[0].opening);
