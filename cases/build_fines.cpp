@@ -6,6 +6,7 @@
 #include "coupling/carry_fines.hpp"
 #include "coupling/frozen_fluxes.hpp"
 #include "coupling/regain_fines.hpp"
+#include "coupling/wall_faces.hpp"
 
 namespace puffin::cases {
 
@@ -67,22 +68,39 @@ lbm::ScalarLaw law_of(const Scalar& scalar) {
   return law;
 }
 
+bool is_opening(const Simulation& s, int patch) {
+  if (patch < 0 || static_cast<std::size_t>(patch) >= s.models.patches.size()) return false;
+  const auto& p = s.models.patches[static_cast<std::size_t>(patch)];
+  return p.is_inlet || p.is_outlet;
+}
+
+/// [patch] 1: a wall on which a value is held for some scalar; empty: there is none.
+std::vector<char> holding_walls(const Simulation& s) {
+  std::vector<char> holds;
+  for (const ScalarBoundary& b : s.description.fines->boundaries) {
+    const int patch = s.surface.patches.find(b.patch);
+    if (is_opening(s, patch)) continue;
+    holds.resize(s.models.patches.size(), 0);
+    holds[static_cast<std::size_t>(patch)] = 1;
+  }
+  return holds;
+}
+
+std::vector<char> triangles_of_openings(const Simulation& s) {
+  std::vector<char> opening(s.surface.mesh.triangles.size(), 0);
+  for (std::size_t t = 0; t < opening.size(); ++t) opening[t] = is_opening(s, s.surface.patches.of_triangle[t]);
+  return opening;
+}
+
 /// What the inertia of the fines does, and which triangle a cell beside a wall belongs to.
 void build_drift(Simulation& s) {
   const Fines& f = *s.description.fines;
   const lbm::Rows& rows = s.state.air->rows;
   const bool inertia = f.wall_deposition != WallDeposition::none;
-  bool absorbs = false;
+  bool absorbs = !holding_walls(s).empty();
   for (const Scalar& scalar : f.scalars) absorbs = absorbs || scalar.wall == ScalarWall::absorb;
   if (!inertia && !absorbs) return;
-  std::vector<char> opening(s.surface.mesh.triangles.size(), 0);
-  for (std::size_t t = 0; t < opening.size(); ++t) {
-    const int patch = s.surface.patches.of_triangle[t];
-    opening[t] = patch >= 0 && static_cast<std::size_t>(patch) < s.models.patches.size() &&
-                 (s.models.patches[static_cast<std::size_t>(patch)].is_inlet ||
-                  s.models.patches[static_cast<std::size_t>(patch)].is_outlet);
-  }
-  const auto walls = coupling::find_wall_cells(rows, s.state.fluxes, *s.tree, opening);
+  const auto walls = coupling::find_wall_cells(rows, s.state.fluxes, *s.tree, triangles_of_openings(s));
   s.models.triangle_of_slot.assign(rows.slots(), -1);
   for (const auto& cell : walls) {  // the nearest comes first
     int& triangle = s.models.triangle_of_slot[static_cast<std::size_t>(cell.slot)];
@@ -148,6 +166,9 @@ void build_fines(Simulation& s) {
   build_regain(s);
   const int sets = static_cast<int>(f.scalars.size());
   s.state.scalars = lbm::ScalarFields(air.rows, coupling::mechanisms * sets, patches_of_openings(air, s.state.routes));
+  if (const auto holds = holding_walls(s); !holds.empty())
+    s.state.scalars.work.held_walls = coupling::find_wall_faces(
+        air.rows, s.state.fluxes, *s.tree, triangles_of_openings(s), s.surface.patches.of_triangle, holds);
   s.state.budget = lbm::ScalarBudget(air.rows, coupling::mechanisms * sets, static_cast<int>(s.models.patches.size()));
   s.state.fines.placed.assign(f.scalars.size(), 0.0);
   double in_all = s.state.fines.loaded;

@@ -58,14 +58,11 @@ class Checks {
 
   void held_value(const std::string& key, const std::string& patch) {
     const auto& given = c_.air.boundaries;
-    const bool opening = std::any_of(given.begin(), given.end(), [&](const Boundary& b) {
-      return b.patch == patch && (b.type == BoundaryType::velocity_inlet || b.type == BoundaryType::pressure_outlet);
+    const bool wraps = std::any_of(given.begin(), given.end(), [&](const Boundary& b) {
+      return b.type == BoundaryType::periodic && (b.patch == patch || b.with == patch);
     });
-    if (need(key, patch) && !opening)
-      say(key,
-          "'" + patch +
-              "' is no opening; a value can be held on velocity-inlets and pressure-outlets, and a wall takes what "
-              "reaches it with wall = \"absorb\" in [[fines.scalar]]");
+    if (need(key, patch) && wraps)
+      say(key, "'" + patch + "' is periodic, so it has no face; a value can be held on walls and openings");
   }
 
   bool need(const std::string& key, const std::string& name) {

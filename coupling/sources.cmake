@@ -27,4 +27,5 @@ set(PUFFIN_COUPLING_SOURCES
   statistics.cpp
   stencils.cpp
   transfer.cpp
-  volume_fraction.cpp)
+  volume_fraction.cpp
+  wall_faces.cpp)

@@ -39,8 +39,7 @@ bool may_touch_wall(double duration, const Vector3d& x, const Vector3d& v, const
     const double gap = plane.gap(x, radius) - margin;
     if (gap <= touching * radius && v.isZero(0.0)) return true;  // placed there: it may hang (placed_contact.hpp)
     if (gap < 0.0 || first_zero(gap, plane.normal.dot(v), plane.normal.dot(a), duration) <= duration) return true;
-    // On so long a way another place of the wall may come up.
-    if (way > 0.2 * radius && gap < way) return true;
+    if (way > largest_trust * radius && gap < way) return true;
   }
   return false;
 }

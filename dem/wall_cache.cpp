@@ -8,7 +8,7 @@ namespace {
 
 // Around an edge or a corner the plane's direction is off by s/R after the way s, and so is that of a push: with s =
 // 0.01 R by half a degree. On a face it is exact, so the trusted way grows while the planes prove exact.
-constexpr double first_trust = 0.001, growth = 4.0, largest_trust = 0.2;  // in radii
+constexpr double first_trust = 0.001, growth = 4.0;  // in radii
 // Beside an edge between flat faces another face takes over where the two are equally far. After the way s past that
 // place the overlap is off by s times the sine of the angle between them, less than 0.26 where one contact serves both.
 constexpr double least_trust = 1e-4;  // in radii

@@ -19,6 +19,9 @@ struct WallPlane {
   double gap(const Eigen::Vector3d& centre, double radius) const { return normal.dot(centre - point) - radius; }
 };
 
+/// So far a plane may be trusted at most, in radii: on a longer way another place of the wall may come up.
+constexpr double largest_trust = 0.2;
+
 struct WallCache {
   Eigen::Vector3d asked_at = Eigen::Vector3d::Zero();  // centre at the last question [m]
   double clear = -1.0;  // no wall nearer to asked_at than this, but for those in `planes` [m]; < 0: never asked

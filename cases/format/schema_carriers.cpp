@@ -170,7 +170,9 @@ void describe_list(Fields& io, Carriers& c) {
   io.list("list", c.list, [&](Fields& f, ListedCarrier& p) {
     f.vector("position", p.position, unit::length, required);
     f.vector("velocity", p.velocity, unit::velocity, otherwise(Vec3(0, 0, 0)));
-    if (!(p.velocity.norm() <= fastest)) f.problem("velocity", "is faster than 1000 m/s, which no carrier in air is");
+    if (!(p.velocity.norm() <= fastest))
+      f.problem("velocity",
+                "is faster than " + format_quantity(fastest, unit::velocity) + ", which no carrier in air is");
     f.vector("spin", p.spin, unit::angular_velocity, otherwise(Vec3(0, 0, 0)));
     f.number("diameter", p.diameter, unit::length, Range::positive, common(c.diameter, "carriers.diameter"));
     f.number("density", p.density, unit::density, Range::positive, common(c.density, "carriers.density"));

@@ -53,11 +53,14 @@ void check(const Update<Real>& u, double steps) {
   }
   if (u.fields.work.checked) return;
   check_fluxes(u.rows, u.fluxes, u.fields.work);
-  for (const auto& faces : u.fields.work.openings)
-    for (const auto& face : faces)
-      for (const auto& patches : u.budget.left)
-        if (face.patch >= static_cast<int>(patches.size()))
-          throw std::invalid_argument("the budget has too few patches");
+  const ScalarWork& work = u.fields.work;
+  for (const auto& patches : u.budget.left) {
+    const auto missing = [&](const auto& face) { return face.patch >= static_cast<int>(patches.size()); };
+    for (int d = 0; d < 3; ++d)
+      if (std::any_of(work.openings[d].begin(), work.openings[d].end(), missing) ||
+          std::any_of(work.held_walls[d].begin(), work.held_walls[d].end(), missing))
+        throw std::invalid_argument("the budget has too few patches");
+  }
   u.fields.work.checked = true;
 }
 

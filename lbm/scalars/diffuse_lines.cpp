@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "lbm/scalars/held_faces.hpp"
 #include "lbm/scalars/run_faces.hpp"
 #include "lbm/scalars/sweep.hpp"
 
@@ -89,13 +90,13 @@ void diffuse_lines(const Rows& rows, const FaceFluxes& fluxes, int d, int scalar
   double* y = work.seen.data();
   const bool absorbs = law.wall == WallRule::absorb;
   const auto low = [&](std::ptrdiff_t s) { return s + offset_low(rows.runs()[work.run_of[s]], d); };
-  const auto high = [&](std::ptrdiff_t s) { return s + offset_high(rows.runs()[work.run_of[s]], d); };
-  /// The value held behind a face, if it is an opening with one.
-  const auto held = [&](std::ptrdiff_t face, std::ptrdiff_t ghost) -> const double* {
-    if (fluxes.open[d][face] != 2) return nullptr;
-    const std::size_t patch = work.opening_patch[ghost];
-    return patch < law.fixed.size() && law.fixed[patch] ? &*law.fixed[patch] : nullptr;
-  };
+  const std::vector<HeldFace> held = held_faces(work, fluxes, d, law);
+  work.held_count.resize(rows.slots());
+  work.held_sum.resize(rows.slots());
+  for (const HeldFace& face : held) {
+    work.held_count[face.cell] += face.takes;
+    work.held_sum[face.cell] += face.value;
+  }
 
   const std::size_t lines = work.line_closes[d].size();
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, lines, 16), [&](const tbb::blocked_range<std::size_t>& range) {
@@ -110,12 +111,8 @@ void diffuse_lines(const Rows& rows, const FaceFluxes& fluxes, int d, int scalar
         const std::ptrdiff_t s = slot[i], below = low(s);
         y[s] = amount[s] > dust ? amount[s] / fields.air[s] : 0.0;
         if (absorbs) system.diag[i] += 2.0 * exchange * ((fluxes.open[d][below] == 0) + (fluxes.open[d][s] == 0));
-        system.right[i] = amount[s];
-        for (const double* value : {held(below, below), held(s, high(s))}) {
-          if (!value) continue;
-          system.diag[i] += 2.0 * exchange;
-          system.right[i] += 2.0 * exchange * *value;
-        }
+        system.diag[i] += 2.0 * exchange * work.held_count[s];
+        system.right[i] = amount[s] + 2.0 * exchange * work.held_sum[s];
         if (fluxes.open[d][s] != 1) continue;
         const std::size_t next = i + 1 < n ? i + 1 : 0;
         high_face[i] = passage(exchange, fluxes.drift[d].empty() ? 0.0 : steps * fluxes.drift[d][s]);
@@ -157,13 +154,15 @@ void diffuse_lines(const Rows& rows, const FaceFluxes& fluxes, int d, int scalar
       }
     }
   });
-  for (const auto& face : work.openings[d]) {
-    const double* value = held(face.ghost_is_high ? face.cell : face.ghost, face.ghost);
-    if (!value) continue;
-    const double out = 2.0 * exchange * y[face.cell], in = 2.0 * exchange * *value;
+  for (const HeldFace& face : held) {
+    const double out = face.takes ? 2.0 * exchange * y[face.cell] : 0.0, in = 2.0 * exchange * face.value;
     amount[face.cell] += in - out;
-    budget.left[scalar][face.patch].add(out);
+    if (face.opening)
+      budget.left[scalar][face.patch].add(out);
+    else
+      budget.absorbed_at[scalar][face.cell] += out;
     budget.entered[scalar][face.patch].add(in);
+    work.held_count[face.cell] = work.held_sum[face.cell] = 0.0;
   }
 }
 

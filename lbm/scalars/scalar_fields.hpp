@@ -28,8 +28,9 @@ struct ScalarLaw {
   Scheme scheme = Scheme::mc;
   double diffusivity = 0.0;  // Gamma / reference density, lattice units: dx^2 per air step; >= 0
   WallRule wall = WallRule::reflect;
-  /// [patch] the concentration held on an opening: inflow brings it, and the scalar diffuses to and from the face, half
-  /// a cell away. No value (or a shorter list): inflow brings none, and nothing diffuses through.
+  /// [patch] the concentration held on an opening or a wall: the scalar diffuses to and from the face, half a cell away,
+  /// and inflow brings it. No value (or a shorter list): inflow brings none, nothing diffuses through an opening, and a
+  /// wall does as `wall` says.
   std::vector<std::optional<double>> fixed = {};
 };
 
@@ -76,6 +77,12 @@ struct ScalarWork {
     bool ghost_is_high;  // the ghost lies in + direction of the cell
   };
   std::array<std::vector<OpeningFace>, 3> openings;  // [d]
+  /// A closed face of a cell, and the patch that it belongs to.
+  struct WallFace {
+    std::ptrdiff_t cell = 0;
+    int patch = 0;
+  };
+  std::array<std::vector<WallFace>, 3> held_walls;  // [d] those on which some scalar may hold a value; given from outside
   std::array<std::vector<std::array<std::ptrdiff_t, 2>>, 3>
       periodic;                      // [d] (ghost beside a cell in d, cell it mirrors)
   std::vector<std::int32_t> run_of;  // [slot] -1: no active cell
@@ -86,6 +93,7 @@ struct ScalarWork {
   ScalarScratch<float> narrow;                                      // used where ScalarOptions::single
   ScalarScratch<double> wide;                                       // or where not
   std::vector<double> seen;                                         // [slot] what diffuse_lines lets diffuse
+  std::vector<double> held_count, held_sum;                         // [slot] 0, but for cells at held faces in there
   std::vector<std::uint8_t> computed;                               // [run] taking part in this update
   std::vector<int> moving;                                          // the scalars that do
   std::array<std::vector<std::int32_t>, 3> line_slots, line_begin;  // [d] lines of cells for implicit diffusion

@@ -4,6 +4,7 @@ set(PUFFIN_SCALAR_SOURCES
   scalars/busy_runs.cpp
   scalars/check_fluxes.cpp
   scalars/diffuse_lines.cpp
+  scalars/held_faces.cpp
   scalars/max_steps.cpp
   scalars/scalar_fields.cpp
   scalars/sub_step.cpp

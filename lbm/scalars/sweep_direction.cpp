@@ -1,18 +1,14 @@
 #include "lbm/scalars/sweep_direction.hpp"
 
 #include <algorithm>
-#include <optional>
 #include <utility>
 
+#include "lbm/scalars/held_faces.hpp"
 #include "lbm/scalars/run_faces.hpp"
 
 namespace puffin::lbm {
 
 namespace {
-
-std::optional<double> fixed_value(const ScalarLaw& law, int patch) {
-  return patch < static_cast<int>(law.fixed.size()) ? law.fixed[patch] : std::nullopt;
-}
 
 /// What the closed faces of absorbing walls take, before the sweep; books it by cell.
 template <class Real>
@@ -24,6 +20,22 @@ void absorb(const Update<Real>& u, int d, const Run& run, int k, double exchange
     u.fields.amount[k][s] -= taken;
     u.budget.absorbed_at[k][s] += taken;
   }
+}
+
+/// What walls that hold a value take from the cells beside them and give, before the sweep. Serial, as
+/// exchange_openings.
+template <class Real>
+void exchange_walls(const Update<Real>& u, int d, const std::vector<double>& exchange) {
+  if (u.fields.work.held_walls[d].empty()) return;
+  for (const int k : u.moving)
+    for (const HeldFace& face : held_faces(u.fields.work, u.fluxes, d, u.options.scalar[k])) {
+      if (face.opening) continue;
+      const double taken = face.takes ? 2.0 * exchange[k] * u.concentration(k)[face.cell] : 0.0;
+      const double given = 2.0 * exchange[k] * face.value;
+      u.fields.amount[k][face.cell] += given - taken;
+      u.budget.absorbed_at[k][face.cell] += taken;
+      u.budget.entered[k][face.patch].add(given);
+    }
 }
 
 /// Gives the openings of direction d what they bring, and books both ways. In the order of the faces, serial.
@@ -104,6 +116,7 @@ void sweep(const Update<Real>& u, const RunSweep<Real>& kernel, int d, double st
   const auto update = [&](const Run& run, std::vector<SweepScalar<Real>>& views) {
     take_and_give(view(run, views), views);
   };
+  exchange_walls(u, d, exchange);
   // Runs whose neighbours are all in their own chunk are finished while they are still in the cache.
   const auto& chunks = u.rows.chunks();
   tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "lbm/geometry/voxelize.hpp"
+#include "tests/lbm/geometry/disagreements.hpp"
 #include "tests/lbm/geometry/shapes.hpp"
 
 namespace puffin::lbm::geometry {
@@ -24,6 +25,7 @@ TEST(Voxelize, MostOfTheFlatFacesAreFacesOfCells) {
   EXPECT_NEAR(above_face(0.53), 0.0, 1e-12);  // floor of the duct
   EXPECT_LE(v.origin[2] - 0.5 * v.dx, 0.0);
   EXPECT_EQ(v.size, (std::array<int, 3>{30, 5, 11}));
+  EXPECT_EQ(disagreements(tree, v, 1e-9), 0u);
   // What has to be flush decides alone: the floor of the pocket.
   VoxelizeOptions options;
   options.flush.assign(tree.mesh().triangles.size(), 0);

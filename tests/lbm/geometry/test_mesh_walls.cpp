@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
 #include <random>
 
 #include "coupling/mesh_walls.hpp"
@@ -40,6 +42,20 @@ TEST_F(DuctWalls, TouchesWallsAndNoOpenings) {
   EXPECT_LT((touches_[0].point - Vec3(0.0001, 0, 0.002)).norm(), 1e-15);
   walls_->near({0.0099, 0.0001, 0.0039}, 2e-4, touches_);
   EXPECT_EQ(touches_.size(), 3u);
+}
+
+// Below the low ceiling, 0.1 mm from it and 0.5 mm behind its edge: what is not on its plane is the step's face, of
+// which the edge is nearest. In the inner corner before the step both walls are planes that do not end within reach.
+TEST_F(DuctWalls, SayHowFarTheRestOfTheWallIs) {
+  const double edge = std::hypot(5e-4, 1e-4);
+  const dem::RestOfWall beside = walls_->near({0.0105, 0.0025, 0.0019}, 1e-3, touches_);
+  ASSERT_EQ(touches_.size(), 1u);
+  EXPECT_NEAR(beside.distance, edge, 1e-12);
+  EXPECT_NEAR(beside.lead, edge - 1e-4, 1e-12);
+  const dem::RestOfWall corner = walls_->near({0.0099, 0.0025, 0.0039}, 2e-4, touches_);
+  ASSERT_EQ(touches_.size(), 2u);
+  EXPECT_EQ(corner.distance, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(corner.lead, std::numeric_limits<double>::infinity());
 }
 
 TEST_F(DuctWalls, ClearanceIsALowerBoundOfTheDistanceToTheWallsAndTightWithinAGridStep) {

@@ -8,6 +8,7 @@
 #include "lbm/geometry/surface_check.hpp"
 #include "lbm/geometry/voxel_report.hpp"
 #include "lbm/geometry/voxelize.hpp"
+#include "tests/lbm/geometry/disagreements.hpp"
 #include "tests/lbm/geometry/shapes.hpp"
 
 namespace puffin::lbm::geometry {
@@ -16,21 +17,6 @@ namespace {
 std::size_t fluid_cells(const Voxels& v) { return v.cells(); }
 
 double volume(const Voxels& v) { return static_cast<double>(fluid_cells(v)) * v.dx * v.dx * v.dx; }
-
-// What voxelize promises, cell by cell, from the winding number alone; cells nearer than `near` to the surface may be
-// either.
-std::size_t disagreements(const TriangleTree& tree, const Voxels& v, double near) {
-  std::size_t wrong = 0;
-  for (int k = 0; k < v.size[2]; ++k) {
-    for (int j = 0; j < v.size[1]; ++j) {
-      for (int i = 0; i < v.size[0]; ++i) {
-        const Vec3 c = v.centre(i, j, k);
-        if (v.is_fluid(i, j, k) != tree.inside(c) && tree.closest(c).distance > near) ++wrong;
-      }
-    }
-  }
-  return wrong;
-}
 
 TEST(Voxelize, ABoxOfWholeCellsIsExactAndFlushWithItsLowCorner) {
   const TriangleTree tree(shapes::box({0.001, 0.002, 0.003}, {0.011, 0.007, 0.006}));

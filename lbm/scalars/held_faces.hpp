@@ -1,0 +1,26 @@
+#pragma once
+// Faces behind which a concentration is held, on openings and on walls, half a cell from the centre of their cell.
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "lbm/scalars/face_fluxes.hpp"
+#include "lbm/scalars/scalar_fields.hpp"
+
+namespace puffin::lbm {
+
+struct HeldFace {
+  std::ptrdiff_t cell = 0;
+  int patch = 0;
+  double value = 0.0;
+  bool opening = false;  // else a wall: what it takes is booked as absorbed
+  bool takes = true;     // false on absorbing walls, whose closed faces take by themselves
+};
+
+std::optional<double> fixed_value(const ScalarLaw& law, int patch);
+
+/// Those of direction d for one scalar, openings first. Time: in the number of faces of openings and held walls.
+std::vector<HeldFace> held_faces(const ScalarWork& work, const FaceFluxes& fluxes, int d, const ScalarLaw& law);
+
+}  // namespace puffin::lbm
