@@ -28,9 +28,9 @@ struct ScalarLaw {
   Scheme scheme = Scheme::mc;
   double diffusivity = 0.0;  // Gamma / reference density, lattice units: dx^2 per air step; >= 0
   WallRule wall = WallRule::reflect;
-  /// [patch] the concentration held on an opening or a wall: the scalar diffuses to and from the face, half a cell away,
-  /// and inflow brings it. No value (or a shorter list): inflow brings none, nothing diffuses through an opening, and a
-  /// wall does as `wall` says.
+  /// [patch] the concentration held on an opening or a wall: the scalar diffuses to and from the face, half a cell
+  /// away, and inflow brings it. No value (or a shorter list): inflow brings none, nothing diffuses through an opening,
+  /// and a wall does as `wall` says.
   std::vector<std::optional<double>> fixed = {};
 };
 
@@ -82,7 +82,8 @@ struct ScalarWork {
     std::ptrdiff_t cell = 0;
     int patch = 0;
   };
-  std::array<std::vector<WallFace>, 3> held_walls;  // [d] those on which some scalar may hold a value; given from outside
+  std::array<std::vector<WallFace>, 3>
+      held_walls;  // [d] those on which some scalar may hold a value; given from outside
   std::array<std::vector<std::array<std::ptrdiff_t, 2>>, 3>
       periodic;                      // [d] (ghost beside a cell in d, cell it mirrors)
   std::vector<std::int32_t> run_of;  // [slot] -1: no active cell
