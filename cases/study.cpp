@@ -1,5 +1,6 @@
 #include "cases/study.hpp"
 
+#include <algorithm>
 #include <array>
 #include <set>
 #include <sstream>
@@ -8,6 +9,7 @@
 #include "cases/format/toml_fields.hpp"
 #include "cases/format/toml_file.hpp"
 #include "cases/sweep.hpp"
+#include "cases/toml_string.hpp"
 #include "cases/units.hpp"
 
 namespace puffin::cases {
@@ -244,6 +246,8 @@ Study read_study(const std::filesystem::path& file) {
 
 std::vector<Override> overrides_of(const StudyCase& c, int replicate) {
   std::vector<Override> sets = c.sets;
+  if (std::none_of(sets.begin(), sets.end(), [](const Override& o) { return o.key == "name"; }))
+    sets.push_back({"name", toml_string(c.name)});
   if (replicate == 0) return sets;
   const Case own = read_case(c.base, c.sets);
   std::erase_if(sets, [](const Override& o) { return o.key == "numerics.seed"; });

@@ -47,7 +47,7 @@ Study read_study(const std::filesystem::path& file);
 /// stands at its place in the study file.
 Case read_study_case(const StudyCase& c, int replicate, std::string_view preset = {});
 
-/// What to lay over the base for a replicate: the case's changes, and the seed where it is not the case's own.
+/// What to lay over the base for a replicate: the case's changes and name, and the seed where it is not the case's own.
 std::vector<Override> overrides_of(const StudyCase& c, int replicate);
 
 }  // namespace puffin::cases

@@ -6,6 +6,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "cases/toml_string.hpp"
+
 namespace puffin::cases {
 namespace {
 
@@ -27,15 +29,6 @@ std::string number(double value) {
   return out;
 }
 
-std::string quoted(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') out += '\\';
-    out += c == '\n' ? ' ' : c;
-  }
-  return out + '"';
-}
-
 std::string commented(const std::map<std::string, std::string>& comments, const std::string& key) {
   const auto found = comments.find(key);
   if (found == comments.end()) return {};
@@ -54,7 +47,7 @@ std::string keys(const PowerLaw& law, const std::string&) {
 }
 std::string keys(const TableLaw&, const std::string& file) {
   if (file.empty()) throw std::invalid_argument("a table law needs a CSV file beside the micro-model file");
-  return "file = " + quoted(file) + "\nmay_fall = true\n";
+  return "file = " + toml_string(file) + "\nmay_fall = true\n";
 }
 std::string keys(const WeibullLaw& law, const std::string&) {
   const auto& c = law.constants();
@@ -110,7 +103,7 @@ std::string write_micromodels(const micromodels::FinesModels& models,
                               const std::map<std::string, std::string>& table_files) {
   std::string out = commented(comments, "");
   if (!out.empty()) out += '\n';
-  out += "label = " + quoted(name(models.label)) + "\nsource = " + quoted(models.source) + '\n';
+  out += "label = " + toml_string(name(models.label)) + "\nsource = " + toml_string(models.source) + '\n';
   if (models.surface_energy > 0.0) put(out, "surface_energy", models.surface_energy);
   const std::pair<const char*, const std::optional<micromodels::Law>*> mechanisms[] = {
       {"wall_detach", &models.wall_detach},
@@ -123,7 +116,7 @@ std::string write_micromodels(const micromodels::FinesModels& models,
       continue;
     }
     const auto file = table_files.find(key);
-    out += '\n' + commented(comments, key) + '[' + key + "]\nlaw = " + quoted(micromodels::name(**law)) + '\n';
+    out += '\n' + commented(comments, key) + '[' + key + "]\nlaw = " + toml_string(micromodels::name(**law)) + '\n';
     out += std::visit([&](const auto& l) { return keys(l, file == table_files.end() ? std::string() : file->second); },
                       **law);
     const micromodels::Validity& valid = micromodels::valid(**law);

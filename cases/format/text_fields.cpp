@@ -2,28 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <filesystem>
+
+#include "cases/toml_string.hpp"
 
 namespace puffin::cases::format {
 namespace {
-
-std::string quote(std::string_view s) {
-  std::string out = "\"";
-  for (const char c : s) {
-    if (c == '"' || c == '\\') {
-      out += '\\';
-      out += c;
-    } else if (static_cast<unsigned char>(c) < 32 || c == 127) {
-      std::array<char, 8> code;
-      std::snprintf(code.data(), code.size(), "\\u%04x", static_cast<unsigned char>(c));
-      out += code.data();
-    } else {
-      out += c;
-    }
-  }
-  return out + "\"";
-}
 
 /// Dots stay: dotted keys (reference values) are read back as the nested tables they came from.
 std::string bare_or_quoted(std::string_view key) {
@@ -32,7 +16,7 @@ std::string bare_or_quoted(std::string_view key) {
                       return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
                              c == '-' || c == '.';
                     });
-  return bare ? std::string(key) : quote(key);
+  return bare ? std::string(key) : toml_string(key);
 }
 
 /// A TOML floating-point number: with a point or an exponent.
@@ -63,7 +47,7 @@ void TextFields::line(std::string_view key, const std::string& value) {
 }
 
 void TextFields::number(std::string_view key, double& value, const Unit& u, Range, Fallback<double>) {
-  line(key, u.symbol.empty() ? number_text(value) : quote(format_quantity(value, u)));
+  line(key, u.symbol.empty() ? number_text(value) : toml_string(format_quantity(value, u)));
 }
 
 void TextFields::integer(std::string_view key, std::int64_t& value, Range, Fallback<std::int64_t>) {
@@ -72,16 +56,18 @@ void TextFields::integer(std::string_view key, std::int64_t& value, Range, Fallb
 
 void TextFields::flag(std::string_view key, bool& value, Fallback<bool>) { line(key, value ? "true" : "false"); }
 
-void TextFields::text(std::string_view key, std::string& value, Fallback<std::string>) { line(key, quote(value)); }
+void TextFields::text(std::string_view key, std::string& value, Fallback<std::string>) {
+  line(key, toml_string(value));
+}
 
 /// Absolute: the copy in a run's folder must find what the case found from its own.
 void TextFields::file(std::string_view key, std::string& path, std::span<const std::string>) {
-  line(key, quote(std::filesystem::absolute(path).string()));
+  line(key, toml_string(std::filesystem::absolute(path).string()));
 }
 
 void TextFields::texts(std::string_view key, std::vector<std::string>& values, Fallback<std::vector<std::string>>) {
   std::string s = "[";
-  for (std::size_t i = 0; i < values.size(); ++i) s += (i ? ", " : "") + quote(values[i]);
+  for (std::size_t i = 0; i < values.size(); ++i) s += (i ? ", " : "") + toml_string(values[i]);
   line(key, s + "]");
 }
 
@@ -89,16 +75,16 @@ void TextFields::numbers(std::string_view key, std::vector<double>& values, std:
                          Fallback<std::vector<double>>) {
   std::string s = "[";
   for (std::size_t i = 0; i < values.size(); ++i)
-    s += (i ? ", " : "") + (u.symbol.empty() ? number_text(values[i]) : quote(format_quantity(values[i], u)));
+    s += (i ? ", " : "") + (u.symbol.empty() ? number_text(values[i]) : toml_string(format_quantity(values[i], u)));
   line(key, s + "]");
 }
 
 void TextFields::time_table(std::string_view key, TimeTable& table, const Unit& u) {
-  if (table.time.size() == 1 && table.time[0] == 0.0) return line(key, quote(format_quantity(table.value[0], u)));
+  if (table.time.size() == 1 && table.time[0] == 0.0) return line(key, toml_string(format_quantity(table.value[0], u)));
   std::string s = "[";
   for (std::size_t i = 0; i < table.time.size(); ++i)
-    s += (i ? ", [" : "[") + quote(format_quantity(table.time[i], unit::time)) + ", " +
-         quote(format_quantity(table.value[i], u)) + "]";
+    s += (i ? ", [" : "[") + toml_string(format_quantity(table.time[i], unit::time)) + ", " +
+         toml_string(format_quantity(table.value[i], u)) + "]";
   line(key, s + "]");
 }
 
@@ -106,19 +92,19 @@ void TextFields::everything(std::map<std::string, Parameter>& values, const Unit
   for (const auto& [key, value] : values) {
     if (const auto* number = std::get_if<double>(&value)) line(key, number_text(*number));
     if (const auto* list = std::get_if<std::vector<double>>(&value)) line(key, list_text(*list));
-    if (const auto* word = std::get_if<std::string>(&value)) line(key, quote(*word));
+    if (const auto* word = std::get_if<std::string>(&value)) line(key, toml_string(*word));
     if (const auto* flag = std::get_if<bool>(&value)) line(key, *flag ? "true" : "false");
   }
 }
 
 int TextFields::pick(std::string_view key, std::span<const Choice> words, int held, Fallback<int>) {
   for (const Choice& w : words)
-    if (w.value == held) line(key, quote(w.name));
+    if (w.value == held) line(key, toml_string(w.name));
   return held;
 }
 
 int TextFields::word(std::string_view key, std::initializer_list<std::string_view> words, int held, int) {
-  if (held >= 0) line(key, quote(*(words.begin() + held)));
+  if (held >= 0) line(key, toml_string(*(words.begin() + held)));
   return held;
 }
 

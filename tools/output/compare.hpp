@@ -15,7 +15,7 @@ struct Tolerance {
 };
 
 /// By dotted name: "fines.drug.FFE", "history.static_drop"; a name stands for all that begin with it and a dot, and the
-/// longest that fits counts.
+/// longest that fits counts. A ledger_error without a name in here may differ by 1e-12 of the dose.
 struct Tolerances {
   Tolerance standard{0.0, 1e-9};
   std::map<std::string, Tolerance> named;

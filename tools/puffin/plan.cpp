@@ -141,7 +141,8 @@ int plan_study(const CaseArguments& a) {
                          {"why", ""}});
     if (!a.json) {
       print("  runs     " + job.id + (names.size() > 1 ? ": " + cases::join(names) : ""));
-      for (const cases::Override& o : job.sets) print("             " + o.key + " = " + o.value);
+      for (const cases::Override& o : job.sets)
+        if (o.key != "name") print("             " + o.key + " = " + o.value);
     }
     if (!job.problem.empty() && !a.json) print("  INVALID  " + job.problem);
     bad = bad || !job.problem.empty();

@@ -54,6 +54,26 @@ TEST(Compare, EqualRunsAreEqualHoweverLongTheyTook) {
   EXPECT_NE(comparison_text(both).find("0 outside"), std::string::npos);
 }
 
+// What a ledger is off by is rounding: 1e-12 of the dose is what it keeps, and any other bit changes it.
+TEST(Compare, LedgersDifferByWhatTheyKeep) {
+  const Scratch folder;
+  leave_run(folder / "a", 0.5, 1.0, 0.125, 0.0);
+  leave_run(folder / "b", 0.5, 1.0, 0.125, 0.0);
+  const auto off_by = [&](double error) {
+    Summary s;
+    s.name = "x", s.state = "finished", s.simulated_time = 1.0;
+    FinesSummary fines;
+    fines.name = "drug", fines.ledger_error = error;
+    s.fines.push_back(fines);
+    write_summary(folder / "b" / "summary.json", s);
+    const auto all = compare_runs(folder / "a", folder / "b", {}).differences;
+    return named(all, "fines.drug.ledger_error")->within();
+  };
+  EXPECT_TRUE(off_by(3e-17));
+  EXPECT_TRUE(off_by(-0.9e-12));
+  EXPECT_FALSE(off_by(1.1e-12));
+}
+
 TEST(Compare, ADifferenceIsNamedWithItsSizeAndItsMoment) {
   const Scratch folder;
   leave_run(folder / "a", 0.50, 1.0, 0.125, 0.0);

@@ -10,6 +10,7 @@
 
 #include "cases/case_error.hpp"
 #include "cases/choices.hpp"
+#include "cases/toml_string.hpp"
 #include "cases/units.hpp"
 #include "cases/write_case.hpp"
 #include "tools/output/output_folder.hpp"
@@ -98,7 +99,7 @@ Candidate candidate(const cases::Study& study, std::size_t which, int replicate,
 }
 
 std::string inline_scalar(const cases::Scalar& s, const std::string& name) {
-  return "{ name = \"" + name + "\", diffusion = " + cases::shortest(s.diffusion) + ", scheme = \"" +
+  return "{ name = " + cases::toml_string(name) + ", diffusion = " + cases::shortest(s.diffusion) + ", scheme = \"" +
          std::string(cases::name_of(s.scheme)) + "\" }";
 }
 
@@ -122,7 +123,8 @@ Job merged(const cases::Study& study, const std::vector<Candidate>& all, const s
   }
   std::erase_if(job.sets, [](const cases::Override& o) { return o.key.starts_with("fines.scalar"); });
   job.sets.push_back({"fines.scalar", "[" + list + "]"});
-  job.sets.push_back({"name", "\"" + name + "\""});
+  std::erase_if(job.sets, [](const cases::Override& o) { return o.key == "name"; });
+  job.sets.push_back({"name", cases::toml_string(name)});
   const cases::Case c = cases::read_case(job.base, job.sets, preset);
   job.resolved = cases::write_resolved(c);
   job.id = "shared/" + output::folder_name(name);
