@@ -1,6 +1,7 @@
 #include "dem/rest.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 
 #include "dem/meeting.hpp"
@@ -72,9 +73,10 @@ void settle(const Rules& rules, const Cluster& cluster, State& state) {
         net.norm() <= still_force * grip.hold &&
         vec(body.v).squaredNorm() + 0.4 * body.radius * body.radius * vec(body.w).squaredNorm() <= energy;
     rest.steps_at_rest = still ? rest.steps_at_rest + 1 : 0;
-    if (rest.steps_at_rest < rules.integration.sleep_steps) continue;
+    if (rest.steps_at_rest < std::int64_t{rest.patience} * rules.integration.sleep_steps) continue;
     const std::int32_t i = record.carrier;
     state.carriers.rest[i] = Rest::asleep;
+    rest.asleep_since = state.statistics.steps;
     state.carriers.velocity[i] = state.carriers.spin[i] = Vector3d::Zero();
     rest.load = record.drag * record.air_velocity + record.steady;
     rest.contact_force = vec(body.force);

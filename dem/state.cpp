@@ -124,10 +124,17 @@ void remove(std::span<const std::uint8_t> gone, State& state) {
   state.neighbours.valid = false;
 }
 
+constexpr std::int64_t lasting = 10;  // times what it had waited for: a sleep that was worth it
+constexpr int most_patience = 64;     // times Integration::sleep_steps
+
 void wake(std::size_t carrier, State& state) {
   if (state.carriers.rest[carrier] == Rest::awake) return;
   state.carriers.rest[carrier] = Rest::awake;
-  state.rest[carrier] = RestMemory{};
+  RestMemory& rest = state.rest[carrier];
+  const bool napped = state.statistics.steps - rest.asleep_since < lasting * rest.steps_at_rest;
+  const int patience = napped ? 2 * std::clamp(rest.patience, 1, most_patience / 2) : 1;
+  rest = RestMemory{};
+  rest.patience = patience;
   ++state.statistics.wakes;
 }
 

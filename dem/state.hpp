@@ -15,6 +15,8 @@ namespace puffin::dem {
 /// What a carrier remembers of its rest.
 struct RestMemory {
   int steps_at_rest = 0;
+  int patience = 1;               // waits for so many times Integration::sleep_steps; grows where sleep does not last
+  std::int64_t asleep_since = 0;  // Statistics::steps when it fell asleep
   Eigen::Vector3d load = Eigen::Vector3d::Zero();            // force of air, field and gravity when it fell asleep [N]
   Eigen::Vector3d contact_force = Eigen::Vector3d::Zero();   // sum of its contacts' forces then [N]
   Eigen::Vector3d contact_change = Eigen::Vector3d::Zero();  // how that sum has changed since [N]

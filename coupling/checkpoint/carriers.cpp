@@ -16,8 +16,8 @@ void fields(auto& archive, Is<dem::Carriers> auto& carriers) {
 }
 
 void fields(auto& archive, Is<dem::RestMemory> auto& memory) {
-  auto& [steps_at_rest, load, contact_force, contact_change, torque, hold] = memory;
-  archive(steps_at_rest, load, contact_force, contact_change, torque, hold);
+  auto& [steps_at_rest, patience, asleep_since, load, contact_force, contact_change, torque, hold] = memory;
+  archive(steps_at_rest, patience, asleep_since, load, contact_force, contact_change, torque, hold);
 }
 
 void fields(auto& archive, Is<dem::Contact> auto& contact) {

@@ -66,6 +66,26 @@ TEST(Rest, SleepersWakeInTimeToLeaveAtTheSameLoad) {
   EXPECT_NEAR(released[1], f0_wall, 3e-3 * f0_wall);
 }
 
+// A load that changes by 0.15 of what friction holds, every 80 steps: it falls asleep after 50 and wakes at the change.
+// Each nap doubles the wait, 50, 100, ...: no second one fits between changes, where without patience there would be
+// one in each of 100. When the load stays, it sleeps again, and after a long sleep it does so as fast as at first.
+TEST(Rest, NapsThatDoNotLastAreGivenUp) {
+  Scene s = bed(1, 1, true);
+  s.models.rotation = false;
+  const auto pushed = [&](double part, int steps) {
+    s.loads[0].force = {0.3 * part * f0_wall, 0, 0};
+    for (int n = 0; n < steps; ++n) s.run(2e-6, 2e-6);
+  };
+  for (int n = 0; n < 100; ++n) pushed(n % 2 ? 0.15 : 0.0, 80);
+  EXPECT_LE(s.state.statistics.wakes, 2);
+  EXPECT_GE(s.state.statistics.wakes, 1);
+  pushed(0.0, 64 * 50 + 1000);
+  EXPECT_EQ(count_asleep(s.state), 1u);
+  pushed(0.0, 11 * 100);
+  pushed(0.15, 200);
+  EXPECT_EQ(count_asleep(s.state), 1u) << "it had slept long: 50 steps are enough again";
+}
+
 // Sideways: friction holds mu F0; with rotation off. Slides at the same drag with and without sleep.
 TEST(Rest, SleepersSlideAtTheSameLoad) {
   double slid[2];
