@@ -37,8 +37,14 @@ class DragDemand {
   bool acts_ = false, own_ = false;
 };
 
-/// Empty if nothing of the kind was released. Rounding may have left a little more than that emitted or on the walls.
-std::optional<FinesRecord::Share> fate(const std::array<FinesRecord::Share, mechanisms>& shares, int only) {
+/// Of the dose: of less, much may have rested where it was released (lbm::ScalarOptions::negligible), so the run does
+/// not say where it would have gone.
+constexpr double known_part = 1e-5;
+
+/// Empty if no more than `least` of the kind was released. Rounding may have left a little more than that emitted or on
+/// the walls.
+std::optional<FinesRecord::Share> fate(const std::array<FinesRecord::Share, mechanisms>& shares, int only,
+                                       double least) {
   FinesRecord::Share sum;
   for (int m = 0; m < mechanisms; ++m) {
     if (only >= 0 && m != only) continue;
@@ -46,7 +52,7 @@ std::optional<FinesRecord::Share> fate(const std::array<FinesRecord::Share, mech
     sum.emitted += shares[m].emitted;
     sum.deposited += shares[m].deposited;
   }
-  if (!(sum.released > 0.0)) return {};
+  if (!(sum.released > least)) return {};
   const double emitted = std::clamp(sum.emitted / sum.released, 0.0, 1.0);
   return FinesRecord::Share{1.0, 0.0, emitted, std::clamp(sum.deposited / sum.released, 0.0, 1.0 - emitted)};
 }
@@ -64,8 +70,8 @@ Ledger books(const Replayed& replayed, const FinesRecord& record, const std::vec
   ledger.on_emitted_carriers = outside.value();
   ledger.on_walls = replayed.to_wall;
   for (int m = 0; m < mechanisms; ++m) {
-    auto went = fate(shares, m);
-    if (!went) went = fate(shares, -1);
+    auto went = fate(shares, m, known_part * ledger.loaded);
+    if (!went) went = fate(shares, -1, 0.0);
     const FinesRecord::Share share = went.value_or(FinesRecord::Share{});
     Ledger::Shares& mine = ledger.by_mechanism[m];
     mine.released = replayed.to_air[m];

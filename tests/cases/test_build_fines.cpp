@@ -13,8 +13,9 @@
 namespace puffin::cases {
 namespace {
 
-/// A box of 1.0 x 0.5 x 0.5 mm in cells of 0.1 mm with frozen air; `more` goes to the end.
-std::unique_ptr<Simulation> scene(const std::string& field, const std::string& sides, const std::string& more) {
+/// A box of 1.0 x 0.5 x 0.5 mm in cells of 0.1 mm with frozen air; `more` goes to the end, `fines` to [fines].
+std::unique_ptr<Simulation> scene(const std::string& field, const std::string& sides, const std::string& more,
+                                  const std::string& fines = "") {
   const std::string text = R"toml(
 schema = 1
 name = "scene"
@@ -33,8 +34,8 @@ when_empty = false
 model = "frozen"
 density = "1.2 kg/m^3"
 viscosity = "1.8e-5 Pa s"
-)toml" + field + sides + "\n[fines]\n[[fines.scalar]]\nname = \"cloud\"\n" +
-                           more;
+)toml" + field + sides + "\n[fines]\n" +
+                           fines + "[[fines.scalar]]\nname = \"cloud\"\n" + more;
   return build(parse_case(text, "scene.toml"));
 }
 
@@ -147,6 +148,21 @@ TEST(HeldValues, OfPeriodicPatchesAreRefused) {
     EXPECT_NE(std::string(e.what()).find("periodic"), std::string::npos) << e.what();
     EXPECT_EQ(e.problems.at(0).key, "fines.boundary[0].patch");
   }
+}
+
+// As long as a scalar holds no more than this, it rests: the three of a set together stay below the millionth of the
+// dose at which a run counts as empty. What a case puts into the air itself is watched more closely.
+TEST(RestingScalars, HoldLessThanWhatCountsAsEmpty) {
+  const auto released =
+      scene(uniform, around,
+            "[carriers]\nfines_each = 2000\nlist = [ { position = [5e-4, 2.5e-4, 2.5e-4], velocity = [0.0, "
+            "0.0, 0.0], diameter = 7e-5, density = 1520 } ]\n[carriers.contact]\nrestitution = 0.6\n"
+            "friction = 0.3\n",
+            "micromodels = \"lactose-3.6e-3.toml\"\n");
+  EXPECT_DOUBLE_EQ(released->state.fines.loaded, 2000.0);
+  EXPECT_DOUBLE_EQ(released->models.scalars.negligible, 3e-7 * 2000.0);
+  EXPECT_LT(coupling::mechanisms * released->models.scalars.negligible, 1e-6 * 2000.0);
+  EXPECT_DOUBLE_EQ(scene(uniform, around, cloud)->models.scalars.negligible, 1e-9 * 1000.0);
 }
 
 /// A box of 1 mm without air; the carrier hits the floor once, at 2 m/s, within the 0.2 ms that are run.

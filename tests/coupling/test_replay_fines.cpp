@@ -100,6 +100,22 @@ TEST(Replay, airborne_fines_share_the_fate_of_the_runs_own) {
   EXPECT_DOUBLE_EQ(ledger.on_walls, 100.0 + (200.0 + 75.0) * 0.15);
 }
 
+// A scalar of which next to nothing was airborne rested where it was released: what the run says of it is no fate.
+TEST(Replay, a_trace_of_a_mechanism_goes_where_all_together_went) {
+  FinesRecord r = two_carriers();
+  double dose = 0.0;
+  for (const auto& carrier : r.carriers) dose += carrier.initial;
+  r.sets[0][0] = {400.0, 40.0, 300.0, 60.0};
+  r.contacts = {wall_hit(0, 0.1), {0, 1, 0.2, 1.0, 1.0, 45.0, true, true, 0.0, 0.0}};
+  for (const double released : {0.9e-5 * dose, 1.1e-5 * dose}) {
+    r.sets[0][1] = {released, released, 0.0, 0.0};  // all of it still in the air
+    const bool trace = released < 1e-5 * dose;
+    const double emitted = replay(r, constant(0.2, 0.1, 0.05)).sets[0].by_mechanism[1].emitted;
+    if (trace) EXPECT_DOUBLE_EQ(emitted, 75.0 * 300.0 / (400.0 + released));
+    if (!trace) EXPECT_EQ(emitted, 0.0);
+  }
+}
+
 TEST(Replay, always_adds_up) {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> unit(0.0, 1.0);

@@ -52,7 +52,7 @@ void add_skipped_work(const cases::Case& c, std::vector<Part>& parts) {
   }
   if (!c.fines || c.fines->scalars.empty() || c.air.model == cases::AirModel::none) return;
   unless("idle_transport", c.numerics.skip.idle_transport, "transport of fines while next to none are airborne",
-         "nothing is computed before the first release");
+         "a scalar of which next to nothing is airborne rests where it is");
   unless("empty_cells", c.numerics.skip.empty_cells, "transport in cells without fines",
          "only where fines are and next to it");
   unless("transport_steps", c.numerics.skip.transport_steps, "transport in every air step",
