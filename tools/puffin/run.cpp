@@ -77,7 +77,7 @@ int run_here(const RunOptions& options, cases::Case c, int threads, std::chrono:
   facts.message = ending.message;
   if (ending.goes_on) facts.until = options.until;
   facts.warnings = stepping.memory().warnings;
-  facts.output = stepping.output_seconds();
+  facts.output = stepping.memory().output + stepping.output_seconds();
   facts.wall_clock = stepping.memory().wall_clock + seconds();
   const output::Summary summary = summarize(s, stepping.recorder(), facts);
   output::write_summary(folder.file("summary.json"), summary);

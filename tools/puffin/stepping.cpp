@@ -46,8 +46,8 @@ class Signals {
 }  // namespace
 
 static void fields(auto& archive, coupling::Is<RunMemory> auto& memory) {
-  auto& [wall_clock, retreats, warnings] = memory;
-  archive(wall_clock, retreats, warnings);
+  auto& [wall_clock, output, retreats, warnings] = memory;
+  archive(wall_clock, output, retreats, warnings);
 }
 
 Stepping::Stepping(cases::Simulation& s, const output::OutputFolder& folder, bool quiet, Clock::time_point start,
@@ -119,6 +119,7 @@ void Stepping::remember(coupling::Checkpoint& checkpoint) const {
   coupling::save(s_.state, checkpoint);
   RunMemory now = memory_;
   now.wall_clock += wall_clock();
+  now.output += output_seconds_;
   coupling::ByteWriter{checkpoint.renew("run")}(now);
   save(recorder_->state(), checkpoint.renew("outputs"));
 }

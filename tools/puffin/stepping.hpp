@@ -17,6 +17,7 @@ namespace puffin::tools {
 /// What a run remembers of itself across checkpoints.
 struct RunMemory {
   double wall_clock = 0.0;            // [s] of the parts before this one
+  double output = 0.0;                // [s] of these, spent on writing
   std::int32_t retreats = 0;          // from failures
   std::vector<std::string> warnings;  // of the start, then one a retreat
 };
