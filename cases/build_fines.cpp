@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -86,10 +87,18 @@ std::vector<char> holding_walls(const Simulation& s) {
   return holds;
 }
 
-std::vector<char> triangles_of_openings(const Simulation& s) {
-  std::vector<char> opening(s.surface.mesh.triangles.size(), 0);
-  for (std::size_t t = 0; t < opening.size(); ++t) opening[t] = is_opening(s, s.surface.patches.of_triangle[t]);
-  return opening;
+/// [triangle] 1: of an opening or a periodic patch, where there is no wall.
+std::vector<char> triangles_without_wall(const Simulation& s) {
+  std::vector<char> without(s.models.patches.size() + 1, 0);  // by patch; the last: of no patch
+  for (std::size_t p = 0; p + 1 < without.size(); ++p) without[p] = is_opening(s, static_cast<int>(p));
+  for (const Boundary& b : s.description.air.boundaries)
+    if (b.type == BoundaryType::periodic)
+      for (const std::string& name : {b.patch, b.with})
+        if (const int patch = s.surface.patches.find(name); patch >= 0) without[static_cast<std::size_t>(patch)] = 1;
+  std::vector<char> found;
+  for (const int patch : s.surface.patches.of_triangle)
+    found.push_back(without[patch < 0 ? without.size() - 1 : static_cast<std::size_t>(patch)]);
+  return found;
 }
 
 /// What the inertia of the fines does, and which triangle a cell beside a wall belongs to.
@@ -97,14 +106,24 @@ void build_drift(Simulation& s) {
   const Fines& f = *s.description.fines;
   const lbm::Rows& rows = s.state.air->rows;
   const bool inertia = f.wall_deposition != WallDeposition::none;
-  bool absorbs = !holding_walls(s).empty();
+  const std::vector<char> holds = holding_walls(s);
+  bool absorbs = !holds.empty();
   for (const Scalar& scalar : f.scalars) absorbs = absorbs || scalar.wall == ScalarWall::absorb;
   if (!inertia && !absorbs) return;
-  const auto walls = coupling::find_wall_cells(rows, s.state.fluxes, *s.tree, triangles_of_openings(s));
+  const auto walls = coupling::find_wall_cells(rows, s.state.fluxes, *s.tree, triangles_without_wall(s));
   s.models.triangle_of_slot.assign(rows.slots(), -1);
   for (const auto& cell : walls) {  // the nearest comes first
     int& triangle = s.models.triangle_of_slot[static_cast<std::size_t>(cell.slot)];
     if (triangle < 0) triangle = cell.triangle;
+  }
+  if (!holds.empty()) {
+    const auto faces =
+        coupling::find_wall_faces(*s.state.air, s.state.fluxes, walls, s.surface.patches.of_triangle, holds);
+    for (int d = 0; d < 3; ++d)
+      for (const auto& [face, triangle] : faces[d]) {
+        s.state.scalars.work.held_walls[d].push_back(face);
+        s.models.triangle_of_slot[static_cast<std::size_t>(face.cell)] = triangle;  // of two walls, that which holds
+      }
   }
   if (!inertia) return;
   coupling::FinesDrift drift;
@@ -134,13 +153,17 @@ void build_regain(Simulation& s) {
   s.models.regain = std::move(regain);
 }
 
-}  // namespace
+/// As long as no more fines of a scalar than this are airborne, it is not carried on: 0.3 millionths of the dose. The
+/// three scalars of a set together stay below the millionth at which a run counts as empty, and far above what the
+/// first touches of a shaking bed release (1e-19 to 1e-16 of the dose, docs/fines.md); a chaotic outcome is known to a
+/// tenth. Where a case puts fines into the air itself, a billionth of all.
+double negligible_fines(const Fines& f, double dose, double in_all) {
+  const bool clouds =
+      std::any_of(f.scalars.begin(), f.scalars.end(), [](const Scalar& x) { return x.initial.has_value(); });
+  return f.micromodels.empty() || clouds ? 1e-9 * in_all : 3e-7 * dose;
+}
 
-/// Of all fines: as long as no more of a scalar is airborne, it is not carried on. With carriers the three scalars of a
-/// set together stay below the millionth at which a run counts as empty, and far above what the first touches of a
-/// shaking bed release (1e-19 to 1e-16 of the dose, docs/fines.md); a chaotic outcome is known to a tenth. What a case
-/// puts into the air itself is watched more closely.
-double resting_part(const Fines& f) { return f.micromodels.empty() ? 1e-9 : 3e-7; }
+}  // namespace
 
 void build_fines(Simulation& s) {
   const Fines& f = *s.description.fines;
@@ -164,13 +187,10 @@ void build_fines(Simulation& s) {
         "fines.turbulent_schmidt: fines are mixed by the unresolved eddies of air.model = \"lbm\" with numerics.les = "
         "\"smagorinsky\"; set these, or leave it out");
   s.models.turbulent_schmidt = f.turbulent_schmidt;
-  build_drift(s);
-  build_regain(s);
   const int sets = static_cast<int>(f.scalars.size());
   s.state.scalars = lbm::ScalarFields(air.rows, coupling::mechanisms * sets, patches_of_openings(air, s.state.routes));
-  if (const auto holds = holding_walls(s); !holds.empty())
-    s.state.scalars.work.held_walls = coupling::find_wall_faces(
-        air.rows, s.state.fluxes, *s.tree, triangles_of_openings(s), s.surface.patches.of_triangle, holds);
+  build_drift(s);
+  build_regain(s);
   s.state.budget = lbm::ScalarBudget(air.rows, coupling::mechanisms * sets, static_cast<int>(s.models.patches.size()));
   s.state.fines.placed.assign(f.scalars.size(), 0.0);
   double in_all = s.state.fines.loaded;
@@ -190,7 +210,7 @@ void build_fines(Simulation& s) {
     in_all = std::max(in_all, s.state.fines.loaded + s.state.fines.placed[set]);
     s.state.airborne = s.state.airborne || scalar.initial || !s.models.scalars.scalar[first].fixed.empty();
   }
-  if (n.skip.idle_transport) s.models.scalars.negligible = resting_part(f) * in_all;
+  if (n.skip.idle_transport) s.models.scalars.negligible = negligible_fines(f, s.state.fines.loaded, in_all);
 }
 
 }  // namespace puffin::cases

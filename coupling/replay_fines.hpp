@@ -52,9 +52,9 @@ struct Replayed {
 /// Asks `models` about every contact in its order, and about the slip between them. The run's own laws return what the
 /// run found, to rounding. Another drag law is asked about each class of slip; what it takes from a carrier is spread
 /// evenly over the time between its contacts, which matters only where a carrier is emptied. Airborne fines of a
-/// mechanism share the fate of the run's own (emitted, deposited, still in the air; if it had none, that of all
-/// mechanisms together; in the air if there is nothing to go by): the moment of release is not followed anew.
-/// Throws std::invalid_argument if a contact names an unknown carrier.
+/// mechanism share the fate of the run's own (emitted, deposited, still in the air; if it released no more than 1e-5 of
+/// the dose, that of all mechanisms together; in the air if there is nothing to go by): the moment of release is not
+/// followed anew. Throws std::invalid_argument if a contact names an unknown carrier.
 Replayed replay(const FinesRecord& record, const micromodels::FinesModels& models);
 
 }  // namespace puffin::coupling

@@ -187,6 +187,10 @@ class Checks {
       if (std::find(names.begin(), names.end(), b.scalar) == names.end())
         say(indexed("fines.boundary", i) + ".scalar",
             "there is no scalar '" + b.scalar + "'; there are " + join(names));
+      for (std::size_t j = 0; j < i; ++j)
+        if (c_.fines->boundaries[j].patch == b.patch && c_.fines->boundaries[j].scalar == b.scalar)
+          say(indexed("fines.boundary", i) + ".patch",
+              "'" + b.patch + "' holds a value for '" + b.scalar + "' already; give one for each");
     }
   }
 

@@ -54,6 +54,12 @@ void check(const Update<Real>& u, double steps) {
   if (u.fields.work.checked) return;
   check_fluxes(u.rows, u.fluxes, u.fields.work);
   const ScalarWork& work = u.fields.work;
+  for (int d = 0; d < 3; ++d)
+    for (const auto& face : work.held_walls[d])
+      if (face.patch < 0 || work.run_of[face.cell] < 0 ||
+          u.fluxes.open[d][face.high ? face.cell : face.cell + offset_low(u.rows.runs()[work.run_of[face.cell]], d)] !=
+              0)
+        throw std::invalid_argument("scalars: a value is held on a face that is no wall of a cell");
   for (const auto& patches : u.budget.left) {
     const auto missing = [&](const auto& face) { return face.patch >= static_cast<int>(patches.size()); };
     for (int d = 0; d < 3; ++d)

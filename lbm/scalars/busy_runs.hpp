@@ -23,7 +23,8 @@ std::vector<double> find_resting(const RunContents& contents);
 bool mark_busy_runs(const Rows& rows, bool all, const RunContents& contents, const std::vector<double>& resting,
                     const std::vector<Stroke>& sweeps, ScalarFields& fields);
 
-/// Sets work.moving: the scalars of which the domain holds more than options.negligible, or whose openings bring some.
+/// Sets work.moving: the scalars of which the domain holds more than options.negligible, or whose openings or walls
+/// bring some.
 void mark_moving_scalars(const ScalarOptions& options, const RunContents& contents, ScalarFields& fields);
 
 }  // namespace puffin::lbm

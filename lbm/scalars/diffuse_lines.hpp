@@ -14,8 +14,9 @@ namespace puffin::lbm {
 /// scalars drift (FaceFluxes::drift), the drift is part of the same exchange, so that both can balance to rounding.
 /// Solved by elimination; then the amounts are moved by the fluxes of the solution, so that what leaves one cell enters
 /// the next to the bit. Unconditionally monotone: the explicit part takes no more than half of what a cell holds, the
-/// matrix has a positive inverse. Absorbing walls and openings with a fixed value exchange 2 `exchange`, as half a cell
-/// lies between; their turnover is booked. Always in double; the concentrations of the sweeps are left as they were.
+/// matrix has a positive inverse. Absorbing walls, and walls and openings with a fixed value, exchange 2 `exchange`, as
+/// half a cell lies between; their turnover is booked. Always in double; the concentrations of the sweeps are left as
+/// they were.
 void diffuse_lines(const Rows& rows, const FaceFluxes& fluxes, int d, int scalar, const ScalarLaw& law, double steps,
                    ScalarFields& fields, ScalarBudget& budget);
 

@@ -69,7 +69,8 @@ struct ScalarScratch {
   std::vector<Real> concentration, out_high, out_low;  // out: leaves through a face in one sweep
 };
 
-/// Scratch of advance_scalars and what it derives once from the rows. No state: a checkpoint leaves it out.
+/// Scratch of advance_scalars, what it derives once from the rows, and held_walls, which the caller gives. No state: a
+/// checkpoint leaves it out.
 struct ScalarWork {
   struct OpeningFace {
     std::ptrdiff_t cell, ghost;
@@ -77,10 +78,11 @@ struct ScalarWork {
     bool ghost_is_high;  // the ghost lies in + direction of the cell
   };
   std::array<std::vector<OpeningFace>, 3> openings;  // [d]
-  /// A closed face of a cell, and the patch that it belongs to.
+  /// A closed face of a cell, on its high side or its low one, and the patch that it belongs to.
   struct WallFace {
     std::ptrdiff_t cell = 0;
     int patch = 0;
+    bool high = false;
   };
   std::array<std::vector<WallFace>, 3>
       held_walls;  // [d] those on which some scalar may hold a value; given from outside

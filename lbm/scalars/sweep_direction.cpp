@@ -26,12 +26,13 @@ void absorb(const Update<Real>& u, int d, const Run& run, int k, double exchange
 /// exchange_openings.
 template <class Real>
 void exchange_walls(const Update<Real>& u, int d, const std::vector<double>& exchange) {
-  if (u.fields.work.held_walls[d].empty()) return;
   for (const int k : u.moving)
-    for (const HeldFace& face : held_faces(u.fields.work, u.fluxes, d, u.options.scalar[k])) {
-      if (face.opening) continue;
-      const double taken = face.takes ? 2.0 * exchange[k] * u.concentration(k)[face.cell] : 0.0;
-      const double given = 2.0 * exchange[k] * face.value;
+    for (const auto& face : u.fields.work.held_walls[d]) {
+      const auto value = fixed_value(u.options.scalar[k], face.patch);
+      if (!value) continue;
+      const bool takes = u.options.scalar[k].wall == WallRule::reflect;  // else absorb() does
+      const double taken = takes ? 2.0 * exchange[k] * u.concentration(k)[face.cell] : 0.0;
+      const double given = 2.0 * exchange[k] * *value;
       u.fields.amount[k][face.cell] += given - taken;
       u.budget.absorbed_at[k][face.cell] += taken;
       u.budget.entered[k][face.patch].add(given);

@@ -7,9 +7,9 @@
 
 namespace puffin::lbm {
 
-/// Moves `steps` air steps along direction d (sweep.hpp), with what walls take and openings bring. exchange: [scalar]
-/// steps * Gamma, 0 where it diffuses elsewhere. drifts: FaceFluxes::drift takes part. After the `last` sweep of an
-/// update the concentrations are those before it. Real: float or double.
+/// Moves `steps` air steps along direction d (sweep.hpp), with what walls take and openings and held values bring.
+/// exchange: [scalar] steps * Gamma, 0 where it diffuses elsewhere. drifts: FaceFluxes::drift takes part. After the
+/// `last` sweep of an update the concentrations are those before it. Real: float or double.
 template <class Real>
 void sweep(const Update<Real>& u, const RunSweep<Real>& kernel, int d, double steps,
            const std::vector<double>& exchange, bool drifts, bool last);

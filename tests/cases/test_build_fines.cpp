@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
+#include <set>
 #include <string>
 
 #include "cases/build.hpp"
@@ -15,7 +17,7 @@ namespace {
 
 /// A box of 1.0 x 0.5 x 0.5 mm in cells of 0.1 mm with frozen air; `more` goes to the end, `fines` to [fines].
 std::unique_ptr<Simulation> scene(const std::string& field, const std::string& sides, const std::string& more,
-                                  const std::string& fines = "") {
+                                  const std::string& fines = "", const std::string& dx = "0.1 mm") {
   const std::string text = R"toml(
 schema = 1
 name = "scene"
@@ -26,7 +28,7 @@ x = "1 mm"
 y = "0.5 mm"
 z = "0.5 mm"
 [numerics]
-dx = "0.1 mm"
+dx = ")toml" + dx + R"toml("
 [stop]
 time = "1 ms"
 when_empty = false
@@ -137,6 +139,79 @@ TEST(HeldValues, OfWallsLeadToTheStraightProfile) {
   EXPECT_NEAR(sum_of_parts(after), after.loaded, 1e-10 * after.loaded);
   const auto map = coupling::wall_map(s->state.fines, s->state.budget, 0, s->models.triangle_of_slot);
   EXPECT_NEAR(std::accumulate(map.begin(), map.end(), 0.0), after.on_walls, 1e-10 * after.on_walls);
+}
+
+// Every closed face is of the side that it looks at, also in the corners and where the walls lie within cells.
+TEST(HeldValues, BelongToTheWallThatAFaceLooksAt) {
+  std::string held = "diffusion = \"1.2e-6 kg/(m s)\"\n";
+  for (const std::string side : {"x-min", "x-max", "y-min", "y-max", "z-min", "z-max"})
+    held += "[[fines.boundary]]\npatch = \"" + side + "\"\nscalar = \"cloud\"\nvalue = 1.0\n";
+  for (const std::string dx : {"0.1 mm", "0.07 mm"}) {
+    const auto s = scene("field = \"uniform\"\nvelocity = [0.0, 0.0, 0.0]\n", "", held, "", dx);
+    std::array<std::set<int>, 3> places;  // of cells along each direction
+    const auto& rows = s->state.air->rows;
+    for (const auto& run : rows.runs())
+      for (std::ptrdiff_t slot = run.first; slot < run.first + run.count; ++slot)
+        for (int d = 0; d < 3; ++d) places[d].insert(rows.cell(slot)[d]);
+    for (int d = 0; d < 3; ++d) {
+      const auto& faces = s->state.scalars.work.held_walls[d];
+      EXPECT_EQ(faces.size(), 2 * places[(d + 1) % 3].size() * places[(d + 2) % 3].size()) << dx;
+      for (const auto& face : faces)
+        EXPECT_EQ(s->surface.patches.names[face.patch], std::string(1, "xyz"[d]) + (face.high ? "-max" : "-min")) << dx;
+    }
+  }
+}
+
+// With immersed walls the cells go on behind the wall: nothing is held there.
+TEST(HeldValues, AreNotHeldBehindImmersedWalls) {
+  const auto s = build(parse_case(R"toml(
+schema = 1
+name = "ibm"
+geometry = { generator = "pipe", pipe = { diameter = "1 mm", length = "1 mm" } }
+[numerics]
+dx = "0.1 mm"
+wall = "ibm"
+reference_speed = 1.0
+[[air.boundary]]
+patch = "inlet"
+type = "periodic"
+with = "outlet"
+[fines]
+[[fines.scalar]]
+name = "cloud"
+[[fines.boundary]]
+patch = "wall"
+scalar = "cloud"
+value = 1.0
+[stop]
+time = "1 ms"
+)toml",
+                                  "ibm.toml"));
+  const lbm::Air& air = *s->state.air;
+  std::size_t behind = 0, faces = 0;
+  for (const auto& run : air.rows.runs())
+    for (std::ptrdiff_t slot = run.first; slot < run.first + run.count; ++slot) behind += !air.is_fluid(slot);
+  EXPECT_GT(behind, 0u) << "else nothing is tested";
+  for (const auto& in_direction : s->state.scalars.work.held_walls)
+    for (const auto& face : in_direction) {
+      EXPECT_TRUE(air.is_fluid(face.cell));
+      ++faces;
+    }
+  EXPECT_GT(faces, 0u);
+}
+
+// What walls take is shown on walls, not on the periodic ends beside them.
+TEST(WallMap, ShowsNothingOnPeriodicPatches) {
+  auto s = scene(uniform, around, std::string("wall = \"absorb\"\n") + cloud);
+  for (int n = 0; n < 20; ++n) coupling::advance(s->models, 1.0, s->state);
+  const auto map = coupling::wall_map(s->state.fines, s->state.budget, 0, s->models.triangle_of_slot);
+  double on_walls = 0.0;
+  for (std::size_t t = 0; t < map.size(); ++t) {
+    const std::string& patch = s->surface.patches.names[s->surface.patches.of_triangle[t]];
+    if (patch == "x-min" || patch == "x-max") EXPECT_EQ(map[t], 0.0);
+    on_walls += map[t];
+  }
+  EXPECT_GT(on_walls, 1.0);
 }
 
 TEST(HeldValues, OfPeriodicPatchesAreRefused) {

@@ -98,6 +98,7 @@ TEST_F(StudyFile, ARunBearsTheNameOfItsCase) {
   EXPECT_EQ(read_study_case(s.cases[1], 0).name, "c") << "said by the study itself";
 }
 
+// The defining property of a Latin hypercube: each of n equal parts of each range holds exactly one point.
 TEST(Sweep, ALatinHypercubeHasOnePointInEachPartOfEachRange) {
   const std::vector<SweepRange> ranges{{"a", {"0", "1"}, {0.0, 1.0}, false}, {"b", {"-2", "3"}, {-2.0, 3.0}, false}};
   constexpr int n = 17;
@@ -122,7 +123,6 @@ TEST(Sweep, WholeNumbersStayWholeAndLevelsAreEvenlySpread) {
   EXPECT_EQ(points, (std::vector<std::vector<std::string>>{{"100"}, {"150"}, {"200"}}));
 }
 
-// The defining property of a Latin hypercube: each of n equal parts of each range holds exactly one point.
 TEST_F(StudyFile, MistakesAreFoundAtTheirPlace) {
   EXPECT_NE(problems("base = \"case.toml\"\nreplicate = 2\n")
                 .find("study.toml:2:1: error: unknown key 'replicate'; did "

@@ -81,9 +81,11 @@ TEST(Rest, NapsThatDoNotLastAreGivenUp) {
   EXPECT_GE(s.state.statistics.wakes, 1);
   pushed(0.0, 64 * 50 + 1000);
   EXPECT_EQ(count_asleep(s.state), 1u);
-  pushed(0.0, 11 * 100);
-  pushed(0.15, 200);
+  pushed(0.15, 90);
   EXPECT_EQ(count_asleep(s.state), 1u) << "it had slept long: 50 steps are enough again";
+  s.state.rest[0].patience = 64, s.state.rest[0].steps_at_rest = 64 * 50;
+  pushed(0.0, 1);
+  EXPECT_EQ(s.state.rest[0].patience, 64) << "no longer than that";
 }
 
 // Sideways: friction holds mu F0; with rotation off. Slides at the same drag with and without sleep.

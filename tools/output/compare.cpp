@@ -25,12 +25,13 @@ bool is_ignored(const std::string& name, const Tolerances& tolerances) {
          std::any_of(tolerances.ignored.begin(), tolerances.ignored.end(), hit);
 }
 
-/// What every ledger keeps, of the dose: below it lies rounding, which differs with anything.
-constexpr Tolerance of_ledgers{1e-12, 0.0};
+/// Of the dose: what a ledger may be off by. Below it lies rounding, which differs with anything.
+constexpr double of_ledgers = 1e-12;
 
-const Tolerance& tolerance_for(const std::string& name, const Tolerances& tolerances) {
-  const bool ledger = name.ends_with("ledger_error") && tolerances.standard.absolute < of_ledgers.absolute;
-  const Tolerance* best = ledger ? &of_ledgers : &tolerances.standard;
+Tolerance tolerance_for(const std::string& name, const Tolerances& tolerances) {
+  Tolerance standard = tolerances.standard;
+  if (name.ends_with("ledger_error")) standard.absolute = std::max(standard.absolute, of_ledgers);
+  const Tolerance* best = &standard;
   std::size_t longest = 0;
   for (const auto& [pattern, tolerance] : tolerances.named)
     if (pattern.size() >= longest && covers(pattern, name)) best = &tolerance, longest = pattern.size();
@@ -63,7 +64,7 @@ Difference judged(const std::string& name, const double* a, const double* b, dou
   d.name = name;
   if (a != nullptr) d.a = *a;
   if (b != nullptr) d.b = *b;
-  const Tolerance& tolerance = tolerance_for(name, tolerances);
+  const Tolerance tolerance = tolerance_for(name, tolerances);
   d.allowed = tolerance.absolute + tolerance.relative * scale;
   d.difference = a != nullptr && b != nullptr ? std::abs(*a - *b) : std::numeric_limits<double>::infinity();
   return d;

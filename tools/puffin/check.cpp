@@ -36,8 +36,10 @@ void check_places(const cases::Case& c, const cases::Surface& surface, cases::As
     } catch (const cases::CaseError& e) {
       problems.insert(problems.end(), e.problems.begin(), e.problems.end());
     }
-  if (assessment.lattice)
-    for (auto& p : cases::output_place_problems(c, tree, assessment.lattice->dx)) problems.push_back(std::move(p));
+  if (c.air.model != cases::AirModel::none) {
+    const double dx = assessment.lattice ? assessment.lattice->dx : cases::cell_size(c.numerics, surface.volume);
+    for (auto& p : cases::output_place_problems(c, tree, dx)) problems.push_back(std::move(p));
+  }
   if (!problems.empty()) throw cases::CaseError(std::move(problems));
   for (auto& w : cases::carrier_place_warnings(c, tree)) assessment.warnings.push_back(std::move(w));
 }

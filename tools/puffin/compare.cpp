@@ -100,7 +100,8 @@ Command compare() {
             app.add_option(
                    "--tol", options->tolerances,
                    "tolerances: [tolerance] with \"fines.drug.FFE\" = { absolute = 0.01, relative = 0 } and the "
-                   "like, \"default\" for all others (1e-9 relative if not given); ignore = [\"name\"]")
+                   "like, \"default\" for all others (1e-9 relative if not given; of ledger errors at least 1e-12); "
+                   "ignore = [\"name\"]")
                 ->type_name("FILE.toml");
             app.add_flag("--json", options->json, "one JSON object on stdout");
             app.footer("Exit code 9 if a number is outside its tolerance. Times and machine are left out.");

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "cases/spelling.hpp"
 #include "lbm/geometry/stl.hpp"
 #include "tools/output/vtk_series.hpp"
 #include "tools/puffin/arguments.hpp"
@@ -72,6 +73,10 @@ int voxelize(const VoxelizeArguments& a) {
   f.defects = geometry::check_surface(mesh);
   const bool sound = f.fatal().empty();
   const geometry::Patches patches = geometry::assign_patches(mesh, {});
+  const std::vector<std::string> usual = VoxelizeArguments{}.openings;
+  for (const std::string& name : a.openings)
+    if (patches.find(name) < 0 && std::find(usual.begin(), usual.end(), name) == usual.end())
+      throw UsageError("--opening: there is no solid '" + name + "'; there are " + cases::join(patches.names));
   std::vector<std::string> openings;
   for (const std::string& name : patches.names)
     if (std::find(a.openings.begin(), a.openings.end(), name) != a.openings.end()) openings.push_back(name);

@@ -112,6 +112,13 @@ std::string device_of(const cases::StudyCase& c) {
   }
 }
 
+/// A resolved case but for its name: runs of a study once bore that of their base.
+std::string without_name(const std::string& resolved) {
+  const std::size_t begin = resolved.find("\nname = ");
+  if (begin == std::string::npos) return resolved;
+  return resolved.substr(0, begin) + resolved.substr(std::min(resolved.find('\n', begin + 1), resolved.size()));
+}
+
 }  // namespace
 
 const char* name_of(JobState state) { return state_names[static_cast<int>(state)]; }
@@ -154,7 +161,7 @@ Book::~Book() {
 bool Book::finished(std::size_t job) const {
   const fs::path run = run_folder(job);
   if (!fs::exists(run / "summary.json") || output::read_summary(run / "summary.json").state != "finished") return false;
-  if (text_of(run / "case.toml") == plan_.jobs[job].resolved) return true;
+  if (without_name(text_of(run / "case.toml")) == without_name(plan_.jobs[job].resolved)) return true;
   throw output::OutputError(run.string() + " holds a finished run of another case than the study's " +
                             plan_.jobs[job].id + "; give the changed study another folder with --out");
 }

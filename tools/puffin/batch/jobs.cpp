@@ -147,11 +147,12 @@ void explain(const cases::Study& study, const std::vector<Job>& jobs, std::vecto
            "of transport steps is that of the most diffusive scalar"});
     for (const Member& m : job.members)
       if (!m.micromodels.empty())
-        sharings.push_back({"micromodels", true,
-                            study.cases[m.which].name + ": the contacts of " + study.cases[job.members[0].which].name +
-                                " replayed with " + std::filesystem::path(m.micromodels).filename().string(),
-                            "FFCR, FFCE and the fines detached and attached are those of a run of its own to rounding; "
-                            "where airborne fines ended is taken from the run, mechanism by mechanism"});
+        sharings.push_back(
+            {"micromodels", true,
+             study.cases[m.which].name + ": the contacts of " + study.cases[job.members[0].which].name +
+                 " replayed with " + std::filesystem::path(m.micromodels).filename().string(),
+             "FFCR, FFCE and the fines detached and attached are those of a run of its own to rounding; "
+             "where airborne fines ended is taken from the run, mechanism by mechanism (a trace: all together)"});
   }
   for (const auto& [wanted, word, what] :
        {std::tuple(study.share.scalars, "scalars",
