@@ -11,8 +11,8 @@
 // awake carriers) differs by more than wake_change of what holds it from the force it fell asleep under, when something
 // new touches it, or when a neighbour is removed. Since sleep_use + wake_change <= 1 it wakes before any contact
 // reaches its limit: release is computed awake.
-// Waking in the middle of a step throws away what its cluster had computed. So a carrier whose sleep was shorter than ten
-// times its wait must rest twice as long before the next, up to 64 times sleep_steps; after a sleep that lasted the
+// Waking in the middle of a step throws away what its cluster had computed. So a carrier whose sleep was shorter than
+// ten times its wait must rest twice as long before the next, up to 64 times sleep_steps; after a sleep that lasted the
 // wait is sleep_steps again.
 
 #include <span>
