@@ -42,6 +42,29 @@ TEST(Boundaries, APeriodicPairMayBeNamedFromEitherSideOrBoth) {
   for (const std::string& pair : {one, other, one + other}) EXPECT_EQ(first_problem(scene(box, pair)), "");
 }
 
+// The air that a lid drags along behind itself has nowhere to go where walls stand. Between two plates it has.
+TEST(Boundaries, ImmersedWallsThatMoveMeetNoStandingOnes) {
+  const auto with_walls = [](const std::string& wall, const std::string& boundaries) {
+    std::string text = scene(box, boundaries);
+    return first_problem(text.replace(text.find("dx ="), 0, "wall = \"" + wall + "\"\n"));
+  };
+  const auto moving = [](const std::string& patch, const std::string& speed) {
+    return boundary(patch, "type = \"moving-wall\"\nvelocity = [" + speed + ", 0.0, 0.0]");
+  };
+  const std::string across = boundary("y-min", "type = \"periodic\"\nwith = \"y-max\""),
+                    along = boundary("x-min", "type = \"periodic\"\nwith = \"x-max\"");
+  const std::string cavity = moving("z-max", "1.0") + across, couette = cavity + along;
+  EXPECT_NE(with_walls("ibm", cavity).find("air.boundary[0].type: 'z-max' moves and meets"), std::string::npos);
+  EXPECT_NE(with_walls("ibm", cavity).find("\"bouzidi\" or \"psm\""), std::string::npos);
+  EXPECT_EQ(with_walls("bouzidi", cavity), "");
+  EXPECT_EQ(with_walls("ibm", couette), "");
+  const std::string sides = moving("y-min", "1.0") + moving("y-max", "1.0");
+  EXPECT_EQ(with_walls("ibm", moving("z-max", "1.0") + moving("z-min", "1.0") + sides + along), "") << "all move alike";
+  EXPECT_NE(with_walls("ibm", moving("z-max", "1.0") + moving("z-min", "1.0") + moving("y-min", "1.0") +
+                                  moving("y-max", "0.5") + along),
+            "");
+}
+
 // 1 m/s through cells of 1 mm: a step of 2e-3 s crosses two of them, one of 0.25 ms a quarter. As `lattice_speed` a 2
 // is refused at once; such a run diverged four times before it gave up.
 TEST(Boundaries, ATimeStepThatNoSchemeCanTakeIsRefused) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <filesystem>
 
 #include "cases/check_boundaries.hpp"
@@ -196,6 +197,26 @@ TEST(ShippedMicroModels, AreRead) {
     const auto models = read_micromodels(std::filesystem::path(PUFFIN_SOURCE_DIR) / "cases/micromodels" / name);
     EXPECT_EQ(models.label, micromodels::Label::surrogate);
     EXPECT_TRUE(models.wall_detach && models.wall_attach && models.particle_detach && models.drag_detach);
+  }
+}
+
+// Fitted for one surface energy, its changes are carried over to the other: what a hit leaves on the wall and what
+// contacts between carriers take at most are those of the fit, and adhesion at walls is as much above the surrogate's.
+TEST(ShippedMicroModels, CalibratedOnesDifferFromTheSurrogateByTheSameFactors) {
+  const auto folder = std::filesystem::path(PUFFIN_SOURCE_DIR) / "cases/micromodels";
+  for (const std::string energy : {"3.6e-3", "1.8e-2"}) {
+    const auto models = read_micromodels(folder / ("calibrated-" + energy + ".toml"));
+    const auto surrogate = read_micromodels(folder / ("lactose-" + energy + ".toml"));
+    EXPECT_EQ(models.label, micromodels::Label::calibrated);
+    EXPECT_NEAR(micromodels::fraction(*models.wall_attach, 20.0), 0.03827, 1e-5);
+    EXPECT_NEAR(micromodels::fraction(*models.particle_detach, 40.0),
+                0.00107072 / 0.5 * micromodels::fraction(*surrogate.particle_detach, 40.0), 1e-8);
+    // The threshold of lift-off grows with the adhesion to the power of 5/6 (micromodels/README.md).
+    const double threshold = std::pow(0.0073272 / 3.6e-3, 5.0 / 6.0);
+    for (const double v : {2.0, 6.0, 15.0})
+      EXPECT_NEAR(micromodels::fraction(*models.wall_detach, threshold * v),
+                  micromodels::fraction(*surrogate.wall_detach, v), 1e-5)
+          << energy << ", " << v;
   }
 }
 
