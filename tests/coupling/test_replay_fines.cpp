@@ -111,8 +111,7 @@ TEST(Replay, a_trace_of_a_mechanism_goes_where_all_together_went) {
     r.sets[0][1] = {released, released, 0.0, 0.0};  // all of it still in the air
     const bool trace = released < 1e-5 * dose;
     const double emitted = replay(r, constant(0.2, 0.1, 0.05)).sets[0].by_mechanism[1].emitted;
-    if (trace) EXPECT_DOUBLE_EQ(emitted, 75.0 * 300.0 / (400.0 + released));
-    if (!trace) EXPECT_EQ(emitted, 0.0);
+    EXPECT_DOUBLE_EQ(emitted, trace ? 75.0 * 300.0 / (400.0 + released) : 0.0);
   }
 }
 
