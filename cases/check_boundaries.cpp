@@ -173,7 +173,7 @@ class Checks {
   }
 
   /// Behind an immersed wall that moves air is dragged along; where another wall stands in its way it piles up and
-  /// drives the air of the fluid: in a cavity up to 2.9 times as fast as its lid.
+  /// drives the air of the fluid: in a cavity of 20 cells to 2.9 times the speed of its lid.
   void moving(const std::string& key, const Boundary& b) {
     if (c_.numerics.wall != WallScheme::ibm || c_.air.model != AirModel::lbm) return;
     const int own = surface_.patches.find(b.patch);

@@ -2,8 +2,6 @@
 
 #include <cstddef>
 
-#include "lbm/scalars/run_faces.hpp"
-
 namespace puffin::coupling {
 
 std::array<std::vector<FaceOfWall>, 3> find_wall_faces(const lbm::Air& air, const lbm::FaceFluxes& fluxes,

@@ -60,9 +60,9 @@ TEST(Boundaries, ImmersedWallsThatMoveMeetNoStandingOnes) {
   EXPECT_EQ(with_walls("ibm", couette), "");
   const std::string sides = moving("y-min", "1.0") + moving("y-max", "1.0");
   EXPECT_EQ(with_walls("ibm", moving("z-max", "1.0") + moving("z-min", "1.0") + sides + along), "") << "all move alike";
-  EXPECT_NE(with_walls("ibm", moving("z-max", "1.0") + moving("z-min", "1.0") + moving("y-min", "1.0") +
-                                  moving("y-max", "0.5") + along),
-            "");
+  const std::string unlike = moving("y-min", "1.0") + moving("y-max", "0.5");
+  EXPECT_NE(with_walls("ibm", moving("z-max", "1.0") + moving("z-min", "1.0") + unlike + along).find("moves and meets"),
+            std::string::npos);
 }
 
 // 1 m/s through cells of 1 mm: a step of 2e-3 s crosses two of them, one of 0.25 ms a quarter. As `lattice_speed` a 2

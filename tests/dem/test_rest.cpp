@@ -84,7 +84,9 @@ TEST(Rest, NapsThatDoNotLastAreGivenUp) {
   pushed(0.15, 90);
   EXPECT_EQ(count_asleep(s.state), 1u) << "it had slept long: 50 steps are enough again";
   s.state.rest[0].patience = 64, s.state.rest[0].steps_at_rest = 64 * 50;
+  const auto wakes = s.state.statistics.wakes;
   pushed(0.0, 1);
+  EXPECT_EQ(s.state.statistics.wakes, wakes + 1);
   EXPECT_EQ(s.state.rest[0].patience, 64) << "no longer than that";
 }
 
