@@ -1,7 +1,8 @@
 # PUFFIN_TOGETHER: sources of a target that keep no private name in common are compiled up to eight at a time, which halves what
 # sanitizers make dear: 65 -> 32 CPU-s for eight files of cases/. Off by default, as one change then compiles eight files, and
 # a forgotten #include is not noticed. The groups are made when cmake runs: run it again if a new private name collides.
-# (Then a local name may hide a private one of another file: -Wshadow says so, and it is no fault.)
+# Then a local name may hide a private one of another file, which -Wshadow says, and g++ sees through more calls and takes strings for
+# uninitialised: neither is a fault, so both are left to builds file by file.
 # ALONE: files that collide in another way.
 function(puffin_together target)
   if(NOT PUFFIN_TOGETHER)
@@ -24,4 +25,6 @@ function(puffin_together target)
     set_source_files_properties(${file} PROPERTIES UNITY_GROUP together_${group})
   endforeach()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  target_compile_options(${target} PRIVATE -Wno-shadow
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized> $<$<CXX_COMPILER_ID:GNU>:-Wno-stringop-overflow>)
 endfunction()
