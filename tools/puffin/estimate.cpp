@@ -25,7 +25,7 @@ int estimate(const CaseArguments& a) {
                         " are free: raise numerics.dx");
   const Rehearsal rehearsal = rehearse(c, rehearsed_seconds);
   assessment.memory = rehearsal.memory;
-  const double steps = assessment.lattice   ? assessment.lattice->steps
+  const double steps = assessment.lattice && c.air.model == cases::AirModel::lbm ? assessment.lattice->steps
                        : rehearsal.time > 0 ? static_cast<double>(rehearsal.steps) * c.stop.time / rehearsal.time
                                             : 0.0;
   const Forecast f = forecast(c, rehearsal, steps);

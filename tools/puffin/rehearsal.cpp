@@ -12,6 +12,7 @@
 #include <filesystem>
 
 #include "cases/build.hpp"
+#include "coupling/air_steps.hpp"
 #include "tools/output/output_folder.hpp"
 #include "tools/puffin/exit_codes.hpp"
 #include "tools/puffin/stepping.hpp"
@@ -106,7 +107,9 @@ Rehearsal rehearse(const cases::Case& c, double seconds) {
   stepping.finish({"stopped", "", stopped});
   r.finish = seconds_since(last);
   const auto& e = s.state.effort;
-  r.steps = s.state.air ? s.state.air->steps : s.state.carriers.statistics.steps;
+  r.time = s.state.time;
+  r.steps = coupling::computes_air(s.models, s.state) ? s.state.air->steps : s.state.carriers.statistics.steps;
+  if (r.steps == 0 && r.time > 0.0) r.steps = 1;  // frozen air that carries fines alone: all that was rehearsed
   if (r.steps > 0) {
     const auto steps = static_cast<double>(r.steps);
     r.air = (e.air + e.links) / steps;
@@ -119,7 +122,6 @@ Rehearsal rehearse(const cases::Case& c, double seconds) {
     if (kind.times > 0)
       r.outputs += kind.seconds / static_cast<double>(kind.times) * (1.0 + std::floor(c.stop.time / kind.interval));
   r.at_rest = steps_before(s, 1.0 / 3.0, c.stop.time);
-  r.time = s.state.time;
   if (s.state.air) r.active = static_cast<std::int64_t>(s.state.air->rows.active_cells());
   r.memory = peak_memory();
   return r;

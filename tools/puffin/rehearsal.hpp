@@ -7,7 +7,8 @@
 
 namespace puffin::tools {
 
-/// Cost of the parts of a run, measured [s].
+/// Cost of the parts of a run, measured [s]. Where no lattice computes the air a step of the carriers stands for an air
+/// step, and without carriers the whole rehearsal.
 struct Rehearsal {
   double set_up = 0.0;      // until the first step
   double air = 0.0;         // an air step: collision, streaming, walls

@@ -31,5 +31,33 @@ TEST_F(Estimate, MemoryIsThatOfTheRun) {
   EXPECT_TRUE(std::filesystem::is_empty(folder_ / "tmp"));  // nothing is left of the rehearsal
 }
 
+// No air step and no carrier is there to be counted, and still the transport takes its time.
+TEST_F(Estimate, FinesInFrozenAirAreRehearsedToo) {
+  std::ofstream(folder_ / "cloud.toml") << R"toml(
+schema = 1
+name = "cloud"
+geometry = { generator = "box", box = { x = "1 mm", y = "0.5 mm", z = "0.5 mm" } }
+numerics = { dx = "0.05 mm" }
+stop = { time = "0.2 ms", when_empty = false }
+[air]
+model = "frozen"
+field = "uniform"
+velocity = [2.0, 0.0, 0.0]
+boundary = [ { patch = "x-min", type = "periodic", with = "x-max" } ]
+[[fines.scalar]]
+name = "cloud"
+initial = { shape = "gaussian", center = [5e-4, 2.5e-4, 2.5e-4], sigma = "0.1 mm", amount = 1000.0 }
+)toml";
+  const std::string program = std::string(PUFFIN_BINARY_DIR) + "/puffin ";
+  ASSERT_EQ(
+      std::system(("cd " + folder_.string() + " && " + program + "estimate cloud.toml --json > cloud.json").c_str()),
+      0);
+  std::ifstream stream(folder_ / "cloud.json");
+  const auto said = nlohmann::json::parse(stream);
+  EXPECT_GE(said["rehearsed_steps"].get<int>(), 1) << "the transport counts for nothing";
+  EXPECT_GE(said["steps"].get<double>(), said["rehearsed_steps"].get<double>());
+  EXPECT_GT(said["seconds"].get<double>(), 0.0);
+}
+
 }  // namespace
 }  // namespace puffin
