@@ -6,6 +6,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
+#include "tests/sanitized.hpp"
 #include "tests/tools/run/small_dose.hpp"
 #include "tools/output/events_file.hpp"
 #include "tools/output/replay_tables.hpp"
@@ -57,10 +58,12 @@ TEST_F(Replay, TheRunsOwnConstantsReturnItsResults) {
             0)
       << text("c.json.log");
   const json c = json::parse(text("c.json"));
-  EXPECT_NEAR(c.at("targets")[0].at("fitted").get<double>(), left, 1e-5);
-  EXPECT_NEAR(c.at("targets")[1].at("fitted").get<double>(), walls, 1e-5);
+  // On the coarser cells of a sanitized build too few fines come off for the targets to be in reach of any constant.
+  const double miss = sanitized ? 1e-3 : 1e-5;
+  EXPECT_NEAR(c.at("targets")[0].at("fitted").get<double>(), left, miss);
+  EXPECT_NEAR(c.at("targets")[1].at("fitted").get<double>(), walls, miss);
   ASSERT_EQ(puffin("replay out --micromodels c.toml --json", "c2.json"), 0) << text("c2.json.log");
-  EXPECT_NEAR(json::parse(text("c2.json")).at("fines").at(f.name).at("FFCR").get<double>(), left, 1e-5);
+  EXPECT_NEAR(json::parse(text("c2.json")).at("fines").at(f.name).at("FFCR").get<double>(), left, miss);
 
   std::ofstream(folder_ / "bad.toml") << "label = \"given\"\n[wall_detach]\nlaw = \"powr\"\n";
   EXPECT_EQ(puffin("replay out --micromodels bad.toml", "bad"), 3);

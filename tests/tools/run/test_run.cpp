@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tests/sanitized.hpp"
 #include "tests/tools/run/small_dose.hpp"
 #include "tools/output/csv_file.hpp"
 #include "tools/output/events_file.hpp"
@@ -87,7 +88,9 @@ TEST_F(Run, ARunThatDivergesEndsWith5AndSaysWhere) {
 
 // 0.5 in lattice units diverges, an eighth of that step does not.
 TEST_F(Run, ARetreatWithASmallerStepSavesARun) {
-  ASSERT_EQ(run("saved", "--set numerics.reference_speed=\"12.5 m/s\" --until 6ms"), 0) << text("saved.log");
+  // On the coarser cells of a sanitized build 12.5 m/s diverge before the first row of history.csv.
+  const std::string speed = sanitized ? "9 m/s" : "12.5 m/s";
+  ASSERT_EQ(run("saved", "--set numerics.reference_speed=\"" + speed + "\" --until 6ms"), 0) << text("saved.log");
   const output::Summary s = output::read_summary(folder_ / "saved" / "summary.json");
   EXPECT_EQ(s.state, "finished");
   ASSERT_GE(s.warnings.size(), 1U);
