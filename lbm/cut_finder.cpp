@@ -60,8 +60,9 @@ std::vector<Cut> CutFinder::cuts(const Run& run, std::ptrdiff_t slot, std::size_
     const std::ptrdiff_t beside = slot + neighbour_offset(run, i);
     const bool solid = is_solid(beside);
     if (!in_fluid || (!solid && !is_fluid(active(beside)))) {
+      const std::int16_t outlet = solid ? outlet_across(slot, c) : std::int16_t{-1};
       if (solid || parted(slot, active(beside)))
-        found.push_back({static_cast<std::int8_t>(i), !solid, patch_near(slot), 0.5F});
+        found.push_back({static_cast<std::int8_t>(i), !solid, outlet >= 0 ? outlet : patch_near(slot), 0.5F});
       continue;
     }
     const Vec3 link = rows_.dx() * Vec3(c[0], c[1], c[2]);
@@ -78,7 +79,9 @@ std::vector<Cut> CutFinder::cuts(const Run& run, std::ptrdiff_t slot, std::size_
       }
     }
     const auto patch = static_cast<std::int16_t>(triangle >= 0 ? surface_.patch_of_triangle[triangle] : -1);
-    if (solid) {
+    if (const std::int16_t outlet = solid ? outlet_across(slot, c) : std::int16_t{-1}; outlet >= 0) {
+      found.push_back({static_cast<std::int8_t>(i), false, outlet, 0.5F});
+    } else if (solid) {
       if (triangle < 0) ++missed;
       found.push_back({static_cast<std::int8_t>(i), false, patch, wall_distance(t, triangle, link)});
     } else if (triangle >= 0 && t < 1.0 - 1e-9 && !grazes(from, link, t, triangle)) {
@@ -130,6 +133,29 @@ bool CutFinder::parted(std::ptrdiff_t a, std::ptrdiff_t b) const {
 std::int16_t CutFinder::patch_near(std::ptrdiff_t slot) const {
   const WallPlace* place = kinds_.sides->of(slot);
   return static_cast<std::int16_t>(place != nullptr ? surface_.patch_of_triangle[place->triangle] : -1);
+}
+
+std::int16_t CutFinder::outlet_across(std::ptrdiff_t slot, const std::array<int, 3>& c) const {
+  if (kinds_.fluid.empty() || !tree_) return -1;
+  const auto cell = rows_.cell(slot);
+  for (int d = 0; d < 3; ++d) {
+    std::array<int, 3> beside = c, ahead{0, 0, 0};
+    beside[d] = 0;
+    ahead[d] = c[d];
+    if (c[d] == 0 || beside == std::array<int, 3>{0, 0, 0}) continue;
+    const std::ptrdiff_t other = rows_.active_slot(cell[0] + beside[0], cell[1] + beside[1], cell[2] + beside[2]);
+    if (other < 0 || is_fluid(slot) == is_fluid(other) || parted(slot, other)) continue;
+    if (rows_.active_slot(cell[0] + ahead[0], cell[1] + ahead[1], cell[2] + ahead[2]) >= 0) continue;
+    Vec3 end = rows_.centre(slot);  // of the fluid cell
+    if (!is_fluid(slot)) end += rows_.dx() * Vec3(beside[0], beside[1], beside[2]);
+    for (const Vec3& shift : shifts_) {
+      const auto hit = tree_->first_hit(end + shift + aside_, rows_.dx() * Vec3(ahead[0], ahead[1], ahead[2]), 1.0);
+      if (!hit) continue;
+      const int patch = surface_.patch_of_triangle[original_[hit->triangle]];
+      if (surface_.boundaries[patch].kind == BoundaryKind::pressure_outlet) return static_cast<std::int16_t>(patch);
+    }
+  }
+  return -1;
 }
 
 bool CutFinder::closed_corner(const Run& run, std::ptrdiff_t slot, const std::array<int, 3>& c) const {

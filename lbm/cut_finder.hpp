@@ -37,6 +37,10 @@ class CutFinder {
   /// A thin wall lies between two computed cells.
   bool parted(std::ptrdiff_t a, std::ptrdiff_t b) const;
   std::int16_t patch_near(std::ptrdiff_t slot) const;
+  /// The outlet that ends a row of fluid cells, where a diagonal out of the last of them, or of the live cell behind
+  /// the wall beside it, crosses from one row to the other beyond that end; -1: none. There goes on what goes on before
+  /// the outlet, so what comes back is not the wall's.
+  std::int16_t outlet_across(std::ptrdiff_t slot, const std::array<int, 3>& c) const;
   /// A diagonal between two active cells whose common neighbours are both solid passes through an edge of the wall.
   bool closed_corner(const Run& run, std::ptrdiff_t slot, const std::array<int, 3>& c) const;
 
