@@ -71,6 +71,7 @@ Air make_air(const geometry::Voxels& voxels, const LinkGeometry& surface, const 
   air.options = options;
   const CellKinds kinds = lay_out_cells(voxels, surface, periodic, air);
   air.links = build_links(air.rows, surface, options.wall, kinds);
+  if (air.markers) air.markers->level = find_band_level(air.rows, air.fluid, air.links);
   const std::size_t slots = air.rows.slots();
   if (options.double_precision)
     air.populations = Populations<double>(slots);

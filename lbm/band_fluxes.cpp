@@ -7,6 +7,7 @@
 #include <map>
 
 #include "lbm/air.hpp"
+#include "lbm/band_level.hpp"
 #include "lbm/scalars/face_fluxes.hpp"
 
 namespace puffin::lbm {
@@ -73,21 +74,7 @@ BandFluxes find_band_fluxes(const Air& air, FaceFluxes& fluxes) {
   if (!air.markers) return band;
   band.open = fluxes.open;
   const Faces faces(air, fluxes);
-  std::vector<std::ptrdiff_t> root(air.rows.slots(), -1), layer;
-  for (const Run& run : air.rows.runs())
-    for (std::ptrdiff_t s = run.first; s < run.first + run.count; ++s)
-      if (air.is_fluid(s)) root[s] = s, layer.push_back(s);
-  while (!layer.empty()) {
-    std::vector<std::ptrdiff_t> next;
-    for (const std::ptrdiff_t s : layer)
-      for (int side = 0; side < 6; ++side) {
-        const Step step = faces.beyond(s, side);
-        if (step.cell < 0 || root[step.cell] >= 0) continue;
-        root[step.cell] = root[s];
-        next.push_back(step.cell);
-      }
-    layer = std::move(next);
-  }
+  const std::vector<std::ptrdiff_t> root = band_roots(air.rows, air.fluid, air.links);
   std::map<std::pair<std::ptrdiff_t, int>, std::vector<BookedFace>> gains;  // (face, axis) -> band faces
   for (const Run& run : air.rows.runs())
     for (std::ptrdiff_t s = run.first; s < run.first + run.count; ++s)

@@ -119,7 +119,7 @@ Weights transposed(const Weights& rows, std::size_t columns) {
 
 MarkerOptions::MarkerOptions() : spacing(1.3), retraction(retraction_for(0.5)) {}
 
-double retraction_for(double tau0) { return std::clamp(0.9 - 0.3 * (tau0 - 0.51) / 0.09, 0.6, 0.9); }
+double retraction_for(double tau0) { return std::clamp(0.78 - 0.18 * (tau0 - 0.51) / 0.09, 0.6, 0.78); }
 
 double roma_kernel(double r) {
   const double a = std::abs(r);

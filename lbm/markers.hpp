@@ -17,6 +17,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "lbm/band_level.hpp"
 #include "lbm/marker_options.hpp"
 #include "lbm/rows.hpp"
 #include "lbm/wall_kernels.hpp"
@@ -49,7 +50,8 @@ struct Markers {
   std::vector<std::uint8_t> run_flags;      // per run
   std::vector<std::uint8_t> touched_runs;   // per run: has a marker's cell
   std::vector<std::uint8_t> foreign_runs;   // per run: others' forces were copied in the last step
-  std::size_t few_cells = 0;                // markers with fewer than 4 live cells
+  BandLevel level;
+  std::size_t few_cells = 0;  // markers with fewer than 4 live cells
 
   std::size_t cells() const { return slot.size(); }
   std::size_t count() const { return gain.size(); }
@@ -58,7 +60,7 @@ struct Markers {
 /// The kernel of Roma, Peskin & Berger, of a distance in cells.
 double roma_kernel(double r);
 
-/// The retraction [cells] with which laminar walls lie where they are: 0.9 where tau0 <= 0.51, 0.6 from 0.6 on, linear
+/// The retraction [cells] with which laminar walls lie where they are: 0.78 where tau0 <= 0.51, 0.6 from 0.6 on, linear
 /// between (measured: docs/decisions/0007-walls.md).
 double retraction_for(double tau0);
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "lbm/band_level.hpp"
+
 namespace puffin::lbm {
 
 namespace {
@@ -66,24 +68,28 @@ FluxRoutes find_routes(const Air& air, FaceFluxes& fluxes) {
         routes.shares[d][s] = static_cast<std::uint16_t>(code);
       }
     }
-  // Openings: every link of a cell that an opening cuts is booked on one face of that cell, along the opening's normal.
+  // Openings: every link of a cell that an opening cuts is booked on one face of that cell, of the root for a cell of a
+  // band behind walls, along the opening's normal.
+  const std::vector<std::ptrdiff_t> root =
+      air.markers ? band_roots(rows, air.fluid, air.links) : std::vector<std::ptrdiff_t>{};
   for (const auto* list : {&air.links.inlets, &air.links.outlets})
     for (const auto& link : *list) {
-      const Run& run = rows.runs()[link.run];
+      const std::ptrdiff_t own = root.empty() || root[link.slot] < 0 ? link.slot : root[link.slot];
+      const Run& run = rows.runs()[air.run_of_slot[own]];
       const geometry::Vec3& normal = air.normal[link.patch];
       int best = 0;
       double most = -2.0;
       for (int i = 1; i <= 6; ++i) {
         const auto& c = d3q19::velocity[i];
         const double along = normal.dot(geometry::Vec3(c[0], c[1], c[2]));
-        if (along > most && rows.is_ghost(link.slot + neighbour_offset(run, i))) {
+        if (along > most && rows.is_ghost(own + neighbour_offset(run, i))) {
           most = along;
           best = i;
         }
       }
       if (best == 0) continue;  // a cell that touches the opening by a corner alone has no face to book on
       const int axis = (best - 1) / 2, sign = best % 2 ? 1 : -1;
-      const std::ptrdiff_t face = sign > 0 ? link.slot : link.slot + neighbour_offset(run, best);
+      const std::ptrdiff_t face = sign > 0 ? own : own + neighbour_offset(run, best);
       fluxes.open[axis][face] = 2;
       routes.openings.push_back(
           {link.slot, link.run, link.direction, static_cast<std::int8_t>(axis), static_cast<std::int8_t>(sign), face});

@@ -58,7 +58,11 @@ double wall_speed(const Drive& drive, const Air& air) {
 }
 
 void prepare_walls(const CollisionConstants& constants, const Drive& drive, Air& air) {
-  if (air.markers) push_from_markers(drive, wall_speed(drive, air), air);
+  if (air.markers) {
+    if (air.steps % steps_between_levels == 0)
+      std::visit([&](auto& p) { level_band(air.markers->level, air.rows, p); }, air.populations);
+    push_from_markers(drive, wall_speed(drive, air), air);
+  }
   if (air.wall_model) {
     const double tau = constants.rescale != 1.0 ? constants.tau0_rescaled : constants.tau0;
     find_wall_stress((tau - 0.5) / 3.0, wall_speed(drive, air), air);

@@ -28,12 +28,12 @@ std::string word(const std::string& key, const std::string& otherwise) {
   return given.contains(key) ? given.at(key) : otherwise;
 }
 
-/// Blocks between the given planes, one block deep along z; solids inlet (x-min), outlet (x-max), wall, sides.
+/// Blocks between the given planes, one block deep along z; solids inlet (x-min), outlet (x-max), wall, back and front.
 template <class Filled>
 geometry::TriangleMesh blocks(const std::vector<double>& x, const std::vector<double>& y, double depth,
                               const Eigen::Matrix3d& turn, const Filled& filled) {
   geometry::TriangleMesh mesh;
-  mesh.solids = {"inlet", "outlet", "wall", "sides"};
+  mesh.solids = {"inlet", "outlet", "wall", "back", "front"};
   std::map<std::array<int, 3>, int> known;
   const auto vertex = [&](int i, int j, int k) {
     const auto [at, fresh] = known.emplace(std::array{i, j, k}, static_cast<int>(mesh.vertices.size()));
@@ -58,7 +58,7 @@ geometry::TriangleMesh blocks(const std::vector<double>& x, const std::vector<do
       if (!in(i, j - 1)) quad(v[0], v[1], v[5], v[4], 2);
       if (!in(i, j + 1)) quad(v[2], v[6], v[7], v[3], 2);
       quad(v[0], v[2], v[3], v[1], 3);
-      quad(v[4], v[5], v[7], v[6], 3);
+      quad(v[4], v[5], v[7], v[6], 4);
     }
   return mesh;
 }
@@ -128,7 +128,8 @@ int main(int count, char** arguments) {
   surface.boundaries = {inlet,
                         {"outlet", BoundaryKind::pressure_outlet, {}},
                         {"wall", BoundaryKind::wall, {}},
-                        {"sides", BoundaryKind::periodic, {}}};
+                        {"back", BoundaryKind::periodic, {}},
+                        {"front", BoundaryKind::periodic, {}}};
   const std::map<std::string, WallScheme> schemes{{"bouzidi", WallScheme::bouzidi},
                                                   {"halfway", WallScheme::halfway},
                                                   {"ibm", WallScheme::ibm},
@@ -147,8 +148,8 @@ int main(int count, char** arguments) {
   const double at[3] = {channel ? 12.0 : 25.0, channel ? 28.0 : 72.5, channel ? 28.0 : 118.5};
   const int steps = static_cast<int>(number("steps", channel ? 8.0 * height * height / nu / 9.87 + 6000.0 : 16000.0));
   Drive drive;
-  drive.speed.assign(4, 0.0);
-  drive.density_excess.assign(4, 0.0);
+  drive.speed.assign(5, 0.0);
+  drive.density_excess.assign(5, 0.0);
   std::vector<double> flow[3], first, second;
   for (int t = 0; t < steps; ++t) {
     drive.speed[0] = speed * std::min(1.0, (t + 1) / 1000.0);
