@@ -18,12 +18,12 @@ std::vector<int> patches_of_openings(const lbm::Air& air, const lbm::FluxRoutes&
   std::vector<int> patch(air.rows.slots(), -1);
   for (const auto* list : {&air.links.inlets, &air.links.outlets})
     for (const auto& link : *list) {
-      const auto& run = air.rows.runs()[link.run];
-      for (const auto& o : routes.openings)
-        if (o.slot == link.slot && o.direction == link.direction) {
-          const int axis_direction = 2 * o.axis + (o.sign > 0 ? 1 : 2);
-          patch[link.slot + lbm::neighbour_offset(run, axis_direction)] = link.patch;
-        }
+      for (const auto& o : routes.openings) {
+        if (o.slot != link.slot || o.direction != link.direction) continue;
+        std::ptrdiff_t ghost = o.face;
+        if (o.sign > 0) ghost += lbm::neighbour_offset(air.rows.runs()[air.run_of_slot[o.face]], 2 * o.axis + 1);
+        patch[ghost] = link.patch;
+      }
     }
   return patch;
 }

@@ -3,7 +3,7 @@
 //
 // Markers brake the two or three rows of cells around them alike, while the air drags the first of them alone. So the
 // air in the band is driven against the flow. In a band without ends it goes round slowly; in one that ends at openings
-// a pressure has to hold it, tens of rho/2 U^2 in a channel, which the cells of the fluid feel through their links.
+// a pressure has to hold it, about ten rho/2 U^2 in a channel, which the cells of the fluid feel through their links.
 // Therefore each cell b of the band is reckoned to the fluid cell that is nearest to it through open faces, its root r,
 // and before every eighth collision takes over from it
 //   m_b = share_r (rho_r - rho_b),   f_i(b) += w_i m_b,   f_i(r) -= w_i m_b:

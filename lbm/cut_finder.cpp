@@ -15,8 +15,8 @@ using geometry::TriangleMesh;
 using geometry::TriangleTree;
 using geometry::Vec3;
 
-CutFinder::CutFinder(const Rows& rows, const LinkGeometry& surface, const CellKinds& kinds)
-    : rows_(rows), surface_(surface), kinds_(kinds) {
+CutFinder::CutFinder(const Rows& rows, const LinkGeometry& surface, const CellKinds& kinds, bool band)
+    : rows_(rows), surface_(surface), kinds_(kinds), band_(band) {
   const TriangleMesh& mesh = *surface.mesh;
   auto kept = std::make_shared<TriangleMesh>();
   kept->vertices = mesh.vertices;
@@ -136,7 +136,7 @@ std::int16_t CutFinder::patch_near(std::ptrdiff_t slot) const {
 }
 
 std::int16_t CutFinder::outlet_across(std::ptrdiff_t slot, const std::array<int, 3>& c) const {
-  if (kinds_.fluid.empty() || !tree_) return -1;
+  if (!band_ || !tree_) return -1;
   const auto cell = rows_.cell(slot);
   for (int d = 0; d < 3; ++d) {
     std::array<int, 3> beside = c, ahead{0, 0, 0};

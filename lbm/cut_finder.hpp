@@ -20,7 +20,8 @@ struct Cut {
 /// The surface without its periodic faces, and the shifts under which it repeats. Keeps references to its arguments.
 class CutFinder {
  public:
-  CutFinder(const Rows& rows, const LinkGeometry& surface, const CellKinds& kinds);
+  /// `band`: cells behind the walls are live air (ibm).
+  CutFinder(const Rows& rows, const LinkGeometry& surface, const CellKinds& kinds, bool band);
 
   /// All cut links of one active cell. `missed` counts links that leave the fluid without a crossing.
   std::vector<Cut> cuts(const Run& run, std::ptrdiff_t slot, std::size_t& missed) const;
@@ -37,9 +38,9 @@ class CutFinder {
   /// A thin wall lies between two computed cells.
   bool parted(std::ptrdiff_t a, std::ptrdiff_t b) const;
   std::int16_t patch_near(std::ptrdiff_t slot) const;
-  /// The outlet that ends a row of fluid cells, where a diagonal out of the last of them, or of the live cell behind
-  /// the wall beside it, crosses from one row to the other beyond that end; -1: none. There goes on what goes on before
-  /// the outlet, so what comes back is not the wall's.
+  /// The outlet that ends a row of fluid cells, where a diagonal link out of that row's last cell crosses to the row of
+  /// the live band beside it, or the other way; -1: none. Beyond the end the air goes on as before it, band and all, so
+  /// what comes back along such a link is the outlet's matter and not the wall's.
   std::int16_t outlet_across(std::ptrdiff_t slot, const std::array<int, 3>& c) const;
   /// A diagonal between two active cells whose common neighbours are both solid passes through an edge of the wall.
   bool closed_corner(const Run& run, std::ptrdiff_t slot, const std::array<int, 3>& c) const;
@@ -47,6 +48,7 @@ class CutFinder {
   const Rows& rows_;
   const LinkGeometry& surface_;
   const CellKinds& kinds_;
+  bool band_;
   std::unique_ptr<geometry::TriangleTree> tree_;
   std::vector<int> original_;  // triangle of the reduced mesh -> triangle of the surface
   std::vector<geometry::Vec3> shifts_;

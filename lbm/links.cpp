@@ -58,7 +58,7 @@ std::vector<Links::Image> in_stretches(std::vector<Links::Image> images) {
 Links build_links(const Rows& rows, const LinkGeometry& surface, WallScheme scheme, const CellKinds& kinds) {
   const auto& runs = rows.runs();
   const bool half = scheme != WallScheme::bouzidi;
-  const CutFinder finder(rows, surface, kinds);
+  const CutFinder finder(rows, surface, kinds, scheme == WallScheme::ibm);
   // Find the cuts of every run in parallel, then lay them out in order.
   std::vector<std::vector<std::vector<Cut>>> of_run(runs.size());
   std::vector<std::size_t> missed(runs.size(), 0);

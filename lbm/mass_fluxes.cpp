@@ -1,8 +1,8 @@
 #include "lbm/mass_fluxes.hpp"
 
 #include <algorithm>
-
-#include "lbm/band_level.hpp"
+#include <array>
+#include <set>
 
 namespace puffin::lbm {
 
@@ -68,13 +68,31 @@ FluxRoutes find_routes(const Air& air, FaceFluxes& fluxes) {
         routes.shares[d][s] = static_cast<std::uint16_t>(code);
       }
     }
-  // Openings: every link of a cell that an opening cuts is booked on one face of that cell, of the root for a cell of a
-  // band behind walls, along the opening's normal.
-  const std::vector<std::ptrdiff_t> root =
-      air.markers ? band_roots(rows, air.fluid, air.links) : std::vector<std::ptrdiff_t>{};
+  // Openings: every link of a cell that an opening cuts is booked on one face of that cell, along the opening's normal;
+  // that of a cell of the band behind a wall on the face of the fluid cell that it passes.
+  std::set<std::array<std::ptrdiff_t, 3>> faces;  // slot, direction, patch
+  if (air.markers)
+    for (const auto& link : air.links.outlets)
+      if (link.direction <= 6) faces.insert({link.slot, link.direction, link.patch});
+  const auto booked = [&](const OpeningLink& link) {
+    if (!air.markers || air.is_fluid(link.slot)) return link.slot;
+    const auto cell = rows.cell(link.slot);
+    for (int i = 1; i <= 6; ++i) {
+      Cell beside = cell;
+      int along = 0;
+      for (int d = 0; d < 3; ++d) {
+        const int c = d3q19::velocity[link.direction][d], a = d3q19::velocity[i][d];
+        along += a * c;
+        if (a == 0) beside[d] += c;
+      }
+      const std::ptrdiff_t other = along > 0 ? rows.active_slot(beside[0], beside[1], beside[2]) : -1;
+      if (other >= 0 && faces.contains({other, i, link.patch})) return other;
+    }
+    return link.slot;
+  };
   for (const auto* list : {&air.links.inlets, &air.links.outlets})
     for (const auto& link : *list) {
-      const std::ptrdiff_t own = root.empty() || root[link.slot] < 0 ? link.slot : root[link.slot];
+      const std::ptrdiff_t own = booked(link);
       const Run& run = rows.runs()[air.run_of_slot[own]];
       const geometry::Vec3& normal = air.normal[link.patch];
       int best = 0;

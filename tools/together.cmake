@@ -1,8 +1,9 @@
 # PUFFIN_TOGETHER: sources of a target that keep no private name in common are compiled up to eight at a time, which halves what
 # sanitizers make dear: 65 -> 32 CPU-s for eight files of cases/. Off by default, as one change then compiles eight files, and
 # a forgotten #include is not noticed. The groups are made when cmake runs: run it again if a new private name collides.
-# Then a local name may hide a private one of another file, which -Wshadow says, and g++ sees through more calls and takes strings for
-# uninitialised: neither is a fault, so both are left to builds file by file.
+# Then a local name may hide a private one of another file (-Wshadow), and g++, which sees through more calls, warns of uninitialised or
+# overlong strings that are neither (-Wmaybe-uninitialized, -Wstringop-overflow). No faults, so a build
+# in groups does not ask for them; the preset release compiles file by file and does.
 # ALONE: files that collide in another way.
 function(puffin_together target)
   if(NOT PUFFIN_TOGETHER)

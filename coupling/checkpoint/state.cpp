@@ -244,7 +244,7 @@ std::uint64_t fingerprint(const State& state) {
   if (!state.air) return 0;
   const lbm::Air& air = *state.air;
   // Raised when the laws at walls or openings change, so that a program does not go on with another one's run.
-  constexpr std::int64_t laws = 1;
+  constexpr std::int64_t laws = 2;
   std::vector<std::int64_t> numbers{laws, static_cast<std::int64_t>(air.rows.slots()),
                                     static_cast<std::int64_t>(air.rows.active_cells())};
   for (const auto& run : air.rows.runs()) {

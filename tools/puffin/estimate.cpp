@@ -25,10 +25,11 @@ int estimate(const CaseArguments& a) {
                         " are free: raise numerics.dx");
   const Rehearsal rehearsal = rehearse(c, rehearsed_seconds);
   assessment.memory = rehearsal.memory;
-  const double steps = assessment.lattice && c.air.model == cases::AirModel::lbm ? assessment.lattice->steps
-                       : rehearsal.time > 0 ? static_cast<double>(rehearsal.steps) * c.stop.time / rehearsal.time
-                                            : 0.0;
-  const Forecast f = forecast(c, rehearsal, steps);
+  const bool counted = assessment.lattice && c.air.model == cases::AirModel::lbm;  // the steps of the ramp
+  const double rehearsals = rehearsal.time > 0.0 ? c.stop.time / rehearsal.time : 0.0;
+  const double units = counted ? assessment.lattice->steps : rehearsal.units * rehearsals;
+  const double steps = counted ? units : static_cast<double>(rehearsal.steps) * rehearsals;
+  const Forecast f = forecast(c, rehearsal, units);
   const double mlups = rehearsal.air > 0.0 ? 1e-6 * static_cast<double>(assessment.cells_fluid) / rehearsal.air : 0.0;
   if (a.json) {
     nlohmann::json j = assessment_json(c, assessment);

@@ -109,9 +109,9 @@ Rehearsal rehearse(const cases::Case& c, double seconds) {
   const auto& e = s.state.effort;
   r.time = s.state.time;
   r.steps = coupling::computes_air(s.models, s.state) ? s.state.air->steps : s.state.carriers.statistics.steps;
-  if (r.steps == 0 && r.time > 0.0) r.steps = 1;  // frozen air that carries fines alone: all that was rehearsed
-  if (r.steps > 0) {
-    const auto steps = static_cast<double>(r.steps);
+  r.units = r.steps == 0 && r.time > 0.0 ? 1.0 : static_cast<double>(r.steps);
+  if (r.units > 0.0) {
+    const double steps = r.units;
     r.air = (e.air + e.links) / steps;
     r.carriers = (e.exchange + e.carriers + e.fines) / steps;
     r.transport = e.scalars / steps;

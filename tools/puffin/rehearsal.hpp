@@ -22,6 +22,7 @@ struct Rehearsal {
   double memory = 0.0;      // peak of this process [byte]
   std::int64_t active = 0;  // cells that are computed, those of an immersed boundary's band too
   std::int64_t steps = 0;   // that were rehearsed
+  double units = 0.0;       // the same, but 1 where frozen air carries fines alone: all that was rehearsed
   int threads = 0;
 };
 
@@ -37,7 +38,7 @@ Rehearsal rehearse(const cases::Case& c, double seconds);
 struct Forecast {
   double seconds = 0.0, low = 0.0, high = 0.0;
 };
-/// `steps`: air steps to stop.time; the flow and with it the steps follow the case's ramp.
+/// `steps`: air steps, or `units`, to stop.time; the flow and with it the steps follow the case's ramp.
 Forecast forecast(const cases::Case& c, const Rehearsal& rehearsal, double steps);
 
 }  // namespace puffin::tools

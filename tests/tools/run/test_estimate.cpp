@@ -23,22 +23,24 @@ TEST_F(Estimate, MemoryIsThatOfTheRun) {
   std::ifstream stream(folder_ / "e.json");
   const auto said = nlohmann::json::parse(stream);
   const double memory = output::read_summary(folder_ / "run/summary.json").memory_peak;
-  if (!sanitized)
-    EXPECT_NEAR(said["memory"].get<double>(), memory, 0.1 * memory);  // a sanitizer takes memory of its own
+  if (!sanitized) {  // a sanitizer takes memory of its own
+    EXPECT_NEAR(said["memory"].get<double>(), memory, 0.1 * memory);
+  }
   EXPECT_LT(said["seconds_low"].get<double>(), said["seconds"].get<double>());
   EXPECT_GT(said["seconds_high"].get<double>(), said["seconds"].get<double>());
   EXPECT_GT(said["rehearsed_steps"].get<int>(), 10);
   EXPECT_TRUE(std::filesystem::is_empty(folder_ / "tmp"));  // nothing is left of the rehearsal
 }
 
-// No air step and no carrier is there to be counted, and still the transport takes its time.
+// No air step and no carrier is there to be counted, and still the transport takes its time: what is rehearsed in 5 s
+// lasts less than 10 s of the cloud's time (400,000 steps of its 2000 cells), so 1000 s take more than 500 s.
 TEST_F(Estimate, FinesInFrozenAirAreRehearsedToo) {
   std::ofstream(folder_ / "cloud.toml") << R"toml(
 schema = 1
 name = "cloud"
 geometry = { generator = "box", box = { x = "1 mm", y = "0.5 mm", z = "0.5 mm" } }
 numerics = { dx = "0.05 mm" }
-stop = { time = "0.2 ms", when_empty = false }
+stop = { time = "1000 s", when_empty = false }
 [air]
 model = "frozen"
 field = "uniform"
@@ -54,9 +56,8 @@ initial = { shape = "gaussian", center = [5e-4, 2.5e-4, 2.5e-4], sigma = "0.1 mm
       0);
   std::ifstream stream(folder_ / "cloud.json");
   const auto said = nlohmann::json::parse(stream);
-  EXPECT_GE(said["rehearsed_steps"].get<int>(), 1) << "the transport counts for nothing";
-  EXPECT_GE(said["steps"].get<double>(), said["rehearsed_steps"].get<double>());
-  EXPECT_GT(said["seconds"].get<double>(), 0.0);
+  EXPECT_EQ(said["rehearsed_steps"].get<int>(), 0);
+  EXPECT_GT(said["seconds"].get<double>(), 500.0);
 }
 
 }  // namespace
