@@ -2,7 +2,7 @@
 # sanitizers make dear: 65 -> 32 CPU-s for eight files of cases/. Off by default, as one change then compiles eight files, and
 # a forgotten #include is not noticed. The groups are made when cmake runs: run it again if a new private name collides.
 # Then a local name may hide a private one of another file (-Wshadow), and g++, which sees through more calls, warns of uninitialised or
-# overlong strings that are neither (-Wmaybe-uninitialized, -Wstringop-overflow). No faults, so a build
+# overlong strings that are neither (-Wmaybe-uninitialized, -Wstringop-overflow, -Warray-bounds). No faults, so a build
 # in groups does not ask for them; the preset release compiles file by file and does.
 # ALONE: files that collide in another way.
 function(puffin_together target)
@@ -27,5 +27,6 @@ function(puffin_together target)
   endforeach()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
   target_compile_options(${target} PRIVATE -Wno-shadow
-    $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized> $<$<CXX_COMPILER_ID:GNU>:-Wno-stringop-overflow>)
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized> $<$<CXX_COMPILER_ID:GNU>:-Wno-stringop-overflow>
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds>)
 endfunction()
