@@ -33,15 +33,24 @@ def chosen(root: Path, which: str) -> list[Path]:
             (any(path.is_relative_to(folder) for folder in folders) or (which == "sources" and path.parts[0] != "tests"))]
 
 
+def entries(build: Path) -> list[tuple[Path, dict]]:
+    """Each source and its compile command; a group (PUFFIN_TOGETHER) stands for the sources that it includes."""
+    found = []
+    for entry in json.loads((build / "compile_commands.json").read_text()):
+        file = (Path(entry["directory"]) / entry["file"]).resolve()
+        members = re.findall(r'#include "(.*)"', file.read_text()) if file.name.startswith("unity_") else [file]
+        found += [(Path(member).resolve(), entry) for member in members]
+    return found
+
+
 def compiled(build: Path) -> set[Path]:
-    commands = json.loads((build / "compile_commands.json").read_text())
-    return {(Path(entry["directory"]) / entry["file"]).resolve() for entry in commands}
+    return {file for file, _ in entries(build)}
 
 
 def flags_of(entry: dict) -> str:
     """The compile command without its file, and without gcc's precompiled headers, which clang cannot read; our sources
     do not need them."""
-    return re.sub(r" -Winvalid-pch| -include \S*cmake_pch\.hxx| -o \S+| -c \S+", "", entry["command"])
+    return re.sub(r" -Winvalid-pch| -Wno-\S+| -include \S*cmake_pch\.hxx| -o \S+| -c \S+", "", entry["command"])
 
 
 class Tidy:
@@ -50,8 +59,7 @@ class Tidy:
     def __init__(self, root: Path, build: Path, program: str, folder: str):
         self.root, self.program, self.folder = root, program, Path(folder)
         self.flags = {}
-        for entry in json.loads((build / "compile_commands.json").read_text()):
-            file = (Path(entry["directory"]) / entry["file"]).resolve()
+        for file, entry in entries(build):
             self.flags.setdefault(file, (entry["directory"], flags_of(entry)))
         settings = (root / ".clang-tidy").read_text()
         self.header = re.search(r"HeaderFilterRegex: '(.*)'", settings).group(1)
