@@ -48,6 +48,17 @@ constexpr std::array prefixes{Prefix{"n", 1e-9},  Prefix{"u", 1e-6}, Prefix{"\u0
                               Prefix{"k", 1e3},   Prefix{"M", 1e6},  Prefix{"G", 1e9},       Prefix{"p", 1e-12},
                               Prefix{"f", 1e-15}, Prefix{"a", 1e-18}};
 
+/// What would be known, for who wrote something else.
+std::string known_units() {
+  std::string scaled, others;
+  for (const Named& u : named_units) {
+    if (u.name == "1") continue;
+    std::string& list = u.prefixable ? scaled : others;
+    list += (list.empty() ? "" : ", ") + std::string(u.name);
+  }
+  return scaled + ", also with a, f, p, n, u, m, c, d, h, k, M, G before them; " + others;
+}
+
 std::optional<Quantity> find_unit(std::string_view name) {
   for (const Named& u : named_units)
     if (u.name == name) return Quantity{u.factor, u.dimension};
@@ -117,7 +128,7 @@ class UnitParser {
       const std::string_view name = text_.substr(begin, at_ - begin);
       if (name.empty()) fail("a unit name is missing");
       const std::optional<Quantity> found = find_unit(name);
-      if (!found) fail("'" + std::string(name) + "' is no unit known here");
+      if (!found) fail("'" + std::string(name) + "' is no unit known here; known are " + known_units());
       q = *found;
     }
     return power(q, exponent());
