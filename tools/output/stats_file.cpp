@@ -72,6 +72,19 @@ void StatsFile::flush() {
   impl_->file.flush();
 }
 
+std::vector<std::string> stats_names(const std::filesystem::path& path) {
+  const Hdf5File file = Hdf5File::reading(path, format);
+  const Hdf5Quiet quiet;
+  const Hdf5Handle group(file.good(H5Gopen2(file.id(), "history", H5P_DEFAULT), "find history in"), H5Gclose);
+  std::vector<std::string> names;
+  const H5L_iterate_t add = [](hid_t, const char* name, const H5L_info_t*, void* to) -> herr_t {
+    static_cast<std::vector<std::string>*>(to)->emplace_back(name);
+    return 0;
+  };
+  file.good(H5Literate(group, H5_INDEX_NAME, H5_ITER_INC, nullptr, add, &names), "list history of");
+  return names;
+}
+
 std::vector<double> read_stats(const std::filesystem::path& path, const std::string& column) {
   const Hdf5File file = Hdf5File::reading(path, format);
   const Hdf5Quiet quiet;

@@ -34,6 +34,8 @@ class StatsFile {
   std::unique_ptr<Impl> impl_;
 };
 
+/// Which columns there are. Throws OutputError if the file is none of this format.
+std::vector<std::string> stats_names(const std::filesystem::path& file);
 /// A column read back. Throws OutputError if it is not there.
 std::vector<double> read_stats(const std::filesystem::path& file, const std::string& column);
 

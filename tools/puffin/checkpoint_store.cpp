@@ -49,6 +49,7 @@ std::string identity_of(const cases::Simulation& s) {
   c.provenance.clear();
   std::ostringstream text;
   text << "program = " << build_info().version << '\n' << cases::write_resolved(c);
+  text << "layout of the outputs = 2\n";  // to be raised with RecorderState
   text << "dx = " << output::shortest(s.dx) << '\n';
   text << "time step at the reference speed = " << output::shortest(s.models.time_step.reference_dt) << '\n';
   std::uint64_t surface = hash_of(s.surface.patches.of_triangle);

@@ -7,47 +7,11 @@
 #include "coupling/checkpoint/bytes.hpp"
 #include "tools/output/stats_file.hpp"
 #include "tools/puffin/frames_of.hpp"
+#include "tools/puffin/history.hpp"
 
 namespace puffin::tools {
 
 using coupling::Vec3;
-
-output::HistoryRow history_row(const cases::Simulation& s, const DropReader& drops) {
-  output::HistoryRow row;
-  const coupling::State& state = s.state;
-  row.time = state.time;
-  row.dt = state.scale.dt;
-  const DropReading drop = drops.read(s);
-  row.flow_rate = drop.flow_rate;
-  row.static_drop = drop.static_drop;
-  row.total_to_static_drop = drop.total_to_static_drop;
-  const auto& c = state.carriers.carriers;
-  for (std::size_t p = 0; p < c.size(); ++p) {
-    row.carriers_in += c.carriers[p];
-    if (c.rest[p] == dem::Rest::asleep) row.carriers_asleep += c.carriers[p];
-  }
-  for (const auto& d : state.departures) row.carriers_emitted += d.carriers;
-  if (state.scalars.scalars() > 0) {
-    const coupling::Ledger ledger = coupling::ledger(state.fines, state.scalars, state.budget, 0);
-    row.FFE = ledger.FFE();
-    row.FFW = ledger.FFW();
-    row.FFCR = ledger.FFCR();
-    row.FFCE = ledger.FFCE();
-    row.in_air = ledger.air_fraction();
-    row.ledger_error = ledger.error();
-  }
-  return row;
-}
-
-std::vector<output::StatsColumn> stats_columns() {
-  std::vector<output::StatsColumn> columns;
-  for (std::size_t k = 0; k < output::history_columns().size(); ++k)
-    columns.push_back({output::history_columns()[k], output::history_units()[k]});
-  columns.push_back({"kinetic_energy", "m^2/s^2"});
-  for (const char* of : {"air_momentum_", "carrier_momentum_"})
-    for (const char* axis : {"x", "y", "z"}) columns.push_back({std::string(of) + axis, "kg m/s"});
-  return columns;
-}
 
 Recorder::Recorder(const cases::Simulation& s, const output::OutputFolder& folder, const RecorderState* resume)
     : folder_(folder), drops_(s), force_reader_(s), points_(s) {
@@ -57,11 +21,14 @@ Recorder::Recorder(const cases::Simulation& s, const output::OutputFolder& folde
   carriers_.next = std::isfinite(carriers_.interval) ? 0.0 : cases::never;
   for (const auto& field : out.fields) fields_.push_back({field.every, 0.0});
   lines_.resize(out.lines.size());
+  scalar_names_ = scalar_names(s);
   if (resume) {
     statistics_.next = resume->statistics_next;
     carriers_.next = resume->carriers_next;
     bool fits = resume->fields_next.size() == fields_.size() && resume->lines.size() == lines_.size() &&
-                resume->totals.size() == resume->history.size();
+                resume->totals.size() == resume->history.size() && resume->scalars.size() == resume->history.size();
+    const std::size_t fates = fates_of_scalars(s).size();
+    for (const auto& row : resume->scalars) fits = fits && row.size() == fates;
     for (std::size_t k = 0; fits && k < lines_.size(); ++k)
       fits = resume->lines[k].inside.size() == resume->lines[k].sum.size() &&
              (resume->lines[k].sum.empty() ||
@@ -70,6 +37,7 @@ Recorder::Recorder(const cases::Simulation& s, const output::OutputFolder& folde
     for (std::size_t k = 0; k < fields_.size(); ++k) fields_[k].next = resume->fields_next[k];
     history_ = resume->history;
     totals_ = resume->totals;
+    scalars_ = resume->scalars;
     lines_ = resume->lines;
   }
   open_files(s, resume);
@@ -107,6 +75,7 @@ RecorderState Recorder::state() const {
   for (const auto& field : fields_) r.fields_next.push_back(field.next);
   r.history = history_;
   r.totals = totals_;
+  r.scalars = scalars_;
   r.lines = lines_;
   const output::CsvFile* tables[] = {history_csv_.get(), probes_csv_.get(), planes_csv_.get(), forces_csv_.get(),
                                      tracks_csv_.get()};
@@ -130,13 +99,14 @@ void Recorder::sync() {
 void Recorder::write_stats() {
   const auto file = folder_.file("stats.h5"), temporary = folder_.file("stats.h5.part");
   {
-    output::StatsFile stats(temporary, stats_columns());
+    output::StatsFile stats(temporary, stats_columns(scalar_names_));
     for (std::size_t n = 0; n < history_.size(); ++n) {
       std::vector<double> row = output::values(history_[n]);
       const Totals& t = totals_[n];
       row.push_back(t.kinetic_energy);
       row.insert(row.end(), t.air_momentum.begin(), t.air_momentum.end());
       row.insert(row.end(), t.carrier_momentum.begin(), t.carrier_momentum.end());
+      row.insert(row.end(), scalars_[n].begin(), scalars_[n].end());
       stats.append(row);
     }
     stats.flush();
@@ -183,6 +153,7 @@ void Recorder::record_statistics(const cases::Simulation& s) {
   const output::HistoryRow row = history_row(s, drops_);
   history_.push_back(row);
   totals_.push_back(read_totals(s));
+  scalars_.push_back(fates_of_scalars(s));
   output::append(*history_csv_, row);
   if (!s.state.air) return;
   const cases::Output& out = s.description.output;

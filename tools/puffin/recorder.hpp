@@ -84,14 +84,10 @@ class Recorder {
   std::unique_ptr<EventRecorder> events_;
   std::unique_ptr<output::VtkSeries> fields_vtk_, carriers_vtk_, walls_vtk_;
   std::vector<LineSums> lines_;
-  std::vector<Totals> totals_;  // one a row of the history
+  std::vector<Totals> totals_;                // one a row of the history
+  std::vector<std::vector<double>> scalars_;  // likewise
+  std::vector<std::string> scalar_names_;
   std::vector<RepeatedOutput> repeated_;
 };
-
-/// Columns of stats.h5: those of history.csv, then the totals of the domain.
-std::vector<output::StatsColumn> stats_columns();
-
-/// One row of the history at this moment.
-output::HistoryRow history_row(const cases::Simulation& s, const DropReader& drops);
 
 }  // namespace puffin::tools

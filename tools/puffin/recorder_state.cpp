@@ -49,9 +49,10 @@ static void fields(auto& archive, Is<OpenContact> auto& contact) {
 }
 
 static void fields(auto& archive, Is<RecorderState> auto& state) {
-  auto& [statistics_next, carriers_next, fields_next, history, totals, lines, moved, begun, tables, events, series] =
-      state;
-  archive(statistics_next, carriers_next, fields_next, history, totals, lines, moved, begun, tables, events, series);
+  auto& [statistics_next, carriers_next, fields_next, history, totals, scalars, lines, moved, begun, tables, events,
+         series] = state;
+  archive(statistics_next, carriers_next, fields_next, history, totals, scalars, lines, moved, begun, tables, events,
+          series);
 }
 
 void save(const RecorderState& state, std::vector<std::byte>& bytes) { coupling::ByteWriter{bytes}(state); }

@@ -34,7 +34,8 @@ struct RecorderState {
   double statistics_next = 0.0, carriers_next = 0.0;  // [s]
   std::vector<double> fields_next;                    // [s]
   std::vector<output::HistoryRow> history;
-  std::vector<Totals> totals;  // one a row of the history
+  std::vector<Totals> totals;                // one a row of the history
+  std::vector<std::vector<double>> scalars;  // likewise: scalar_columns of each
   std::vector<LineSums> lines;
   MovedFines moved;
   std::int64_t begun = 0;  // contacts so far

@@ -11,7 +11,6 @@
 #include "tools/output/stats_file.hpp"
 #include "tools/output/tables.hpp"
 #include "tools/output/vtk_series.hpp"
-#include "tools/puffin/recorder.hpp"
 
 namespace puffin::tools {
 namespace {
@@ -44,8 +43,7 @@ Table csv_table(const std::filesystem::path& file) {
 
 Table stats_table(const std::filesystem::path& file) {
   Table table;
-  for (const output::StatsColumn& column : stats_columns())
-    table.numbers[column.name] = output::read_stats(file, column.name);
+  for (const std::string& column : output::stats_names(file)) table.numbers[column] = output::read_stats(file, column);
   return table;
 }
 

@@ -175,6 +175,7 @@ TEST(Stats, ColumnsReadBack) {
   const std::vector<double> rate = read_stats(folder / "stats.h5", "flow_rate");
   ASSERT_EQ(rate.size(), 3000u);
   EXPECT_EQ(rate[2999], 1.0 / 3000);
+  EXPECT_EQ(stats_names(folder / "stats.h5"), (std::vector<std::string>{"flow_rate", "time"}));  // by the alphabet
   EXPECT_THROW(read_stats(folder / "stats.h5", "flow"), OutputError);
 }
 

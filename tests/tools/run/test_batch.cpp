@@ -7,6 +7,7 @@
 #include "tests/tools/run/batch_study.hpp"
 #include "tests/tools/run/small_dose.hpp"
 #include "tools/output/csv_file.hpp"
+#include "tools/output/stats_file.hpp"
 #include "tools/output/study_results.hpp"
 #include "tools/output/summary.hpp"
 
@@ -141,6 +142,12 @@ TEST_F(BatchStudy, ASharedRunGivesWhatEachCaseGivesAlone) {
       ASSERT_TRUE(shared.cases[n].find(quantity) && alone.cases[n].find(quantity));
       EXPECT_EQ(shared.cases[n].find(quantity)->mean, alone.cases[n].find(quantity)->mean);
     }
+  // And over time: the curves of the second case are its own, not those of the first scalar.
+  const fs::path stats = folder_ / "out/shared/a_b/seed-1/stats.h5";
+  const auto own = output::read_csv(folder_ / "alone/b/seed-1/history.csv");
+  EXPECT_EQ(output::read_stats(stats, "in_air_b"), own.numbers("in_air"));
+  EXPECT_EQ(output::read_stats(stats, "FFE_b"), own.numbers("FFE"));
+  EXPECT_NE(output::read_stats(stats, "in_air_a"), own.numbers("in_air"));
 }
 
 /// A power law that detaches `limit` of the fines at any hard hit.

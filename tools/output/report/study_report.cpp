@@ -8,6 +8,7 @@
 #include "tools/output/report/chart.hpp"
 #include "tools/output/report/html.hpp"
 #include "tools/output/report/study_sections.hpp"
+#include "tools/output/stats_file.hpp"
 #include "tools/output/study_results.hpp"
 
 namespace puffin::output {
@@ -91,6 +92,19 @@ std::string outcomes(const StudyResults& results) {
              "Mean with the half width of its 95 % interval where there are replicates; in brackets: the thesis.");
 }
 
+/// A column over the run's history; of a run that cases share, the values of this case's own scalar where stats.h5 has
+/// them.
+std::vector<double> column_of(const StudyRun& run, const fs::path& folder, const std::string& column,
+                              const CsvTable& history) {
+  const fs::path stats = folder / "stats.h5";
+  const std::string own = column + "_" + run.scalar;
+  if (!run.scalar.empty() && fs::exists(stats)) {
+    const std::vector<std::string> names = stats_names(stats);
+    if (std::find(names.begin(), names.end(), own) != names.end()) return read_stats(stats, own);
+  }
+  return history.numbers(column);
+}
+
 /// Curves of one column of the first finished run of every case.
 std::string curves(const StudyResults& results, const fs::path& study, const std::string& column, bool over_count,
                    const std::string& label, const std::string& caption) {
@@ -101,7 +115,7 @@ std::string curves(const StudyResults& results, const fs::path& study, const std
         std::find_if(c.runs.begin(), c.runs.end(), [](const StudyRun& r) { return r.summary.has_value(); });
     if (run == c.runs.end() || !run->summary->carriers || !fs::exists(study / run->folder / "history.csv")) continue;
     const CsvTable history = read_csv(study / run->folder / "history.csv");
-    std::vector<double> time = history.numbers("time"), value = history.numbers(column);
+    std::vector<double> time = history.numbers("time"), value = column_of(*run, study / run->folder, column, history);
     if (time.empty() || value.size() != time.size()) continue;
     for (double& t : time) t *= 1e3;
     const auto count = static_cast<double>(std::max<std::int64_t>(1, run->summary->carriers->count));
@@ -130,7 +144,8 @@ std::string emission(const StudyResults& results, const fs::path& study) {
     out += curves(frame, study, "carriers_emitted", true, "carriers emitted, of all",
                   "Carriers that have left (history.csv of the first replicate).");
     out += curves(frame, study, "FFE", false, "fines emitted free (FFE)",
-                  "Fines that have left free of a carrier; cases that share a run share this curve.");
+                  "Fines that have left free of a carrier (history.csv, stats.h5); a case whose fines were replayed "
+                  "has the curve of its run.");
   }
   return heading("Emission over time") + (out.empty() ? paragraph("No run with carriers is done yet.") : out);
 }
