@@ -14,7 +14,9 @@ double seconds_since(Clock::time_point begin) { return std::chrono::duration<dou
 
 // The widest vectors that the processor has, chosen when the program is loaded; with gcc whatever else is optimised
 // how.
-#ifdef __clang__
+#if defined(__SANITIZE_THREAD__)  // the choice would run before the sanitizer does
+#define PUFFIN_WIDEST
+#elif defined(__clang__)
 #define PUFFIN_WIDEST __attribute__((target_clones("avx512f", "avx2", "default")))
 #else
 #define PUFFIN_WIDEST __attribute__((target_clones("avx512f", "avx2", "default"), optimize("O3")))
