@@ -23,7 +23,7 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 HEADER = ["program", "claims", "reports", "result", "left_out", "cpu_s"]
-LONG = {"test_restart_l_base", "test_restart_walls", "test_determinism"}
+LONG = {"test_restart_l_base", "test_restart_walls", "test_determinism", "test_scalar_boundedness"}
 # Claims that take too long or need what a sanitizer forbids; behind each what runs its lines instead.
 LEFT_OUT: dict[str, list[str]] = {
     "test_checkpoint": ["Checkpoint.AlteredBytesAreRefusedOrHarmless"],  # stopped after 527 s with the claims before it; fuzz_checkpoint alters bytes the same way

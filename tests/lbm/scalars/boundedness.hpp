@@ -10,6 +10,7 @@
 
 #include "lbm/scalars/sub_step.hpp"
 #include "tests/lbm/scalars/scene.hpp"
+#include "tests/sanitized.hpp"
 
 namespace puffin::lbm {
 
