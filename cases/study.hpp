@@ -20,7 +20,7 @@ struct StudyCase {
   std::map<std::string, KeyPlace> where;  // of each key, in the study file
 };
 
-/// What cases may share: what is asked for, done as far as it is exact (tools/puffin/batch_jobs.hpp).
+/// What cases may share: what is asked for, done as far as it is exact.
 struct Share {
   bool geometry = false, scalars = false, micromodels = false, start = false, one_way_flow = false;
 };
