@@ -17,12 +17,13 @@ namespace {
 std::string cloud(const char* volume_fraction, int side, double spacing) {
   std::string list;
   for (int n = 0; n < side * side * side; ++n) {
+    const int row = n / side, layer = row / side;
     char text[200];
     std::snprintf(text, sizeof text,
                   "{ position = [%.6g, %.6g, %.6g], velocity = [0.5, %.3g, 0], spin = [0, 0, 0], "
                   "diameter = 7e-5, density = 1520 },\n",
-                  1e-3 * (0.6 + spacing * (n % side)), 1e-3 * (0.63 + spacing * (n / side % side)),
-                  1e-3 * (0.61 + spacing * (n / (side * side))), 0.02 * (n % 3 - 1));
+                  1e-3 * (0.6 + spacing * (n % side)), 1e-3 * (0.63 + spacing * (row % side)),
+                  1e-3 * (0.61 + spacing * layer), 0.02 * (n % 3 - 1));
     list += text;
   }
   return std::string(R"(

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numeric>
 #include <random>
 #include <vector>
 
@@ -54,8 +55,8 @@ TEST(Statistics, SamplesCountByTheirDuration) {
 
 TEST(Statistics, ATrendWidensTheIntervalAndShowsInTheCorrelation) {
   // A straight line has batch means with a lag-1 correlation near 0.85 for 20 pieces: factor sqrt(1.85/0.15) = 3.5.
-  std::vector<double> value;
-  for (int n = 0; n < 1000; ++n) value.push_back(n);
+  std::vector<double> value(1000);
+  std::iota(value.begin(), value.end(), 0.0);
   const TimeMean mean = batch_means(value, std::vector<double>(1000, 1.0));
   EXPECT_GT(mean.correlation, 0.7);
   EXPECT_GT(mean.half_width, 2.0 * 2.09 * 1000.0 / std::sqrt(12.0) / std::sqrt(20.0));
