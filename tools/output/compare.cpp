@@ -30,7 +30,8 @@ constexpr double of_ledgers = 1e-12;
 
 Tolerance tolerance_for(const std::string& name, const Tolerances& tolerances) {
   Tolerance standard = tolerances.standard;
-  if (name.ends_with("ledger_error")) standard.absolute = std::max(standard.absolute, of_ledgers);
+  if (name.ends_with("ledger_error") || name.ends_with("momentum_error"))
+    standard.absolute = std::max(standard.absolute, of_ledgers);
   const Tolerance* best = &standard;
   std::size_t longest = 0;
   for (const auto& [pattern, tolerance] : tolerances.named)

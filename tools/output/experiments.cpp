@@ -67,6 +67,7 @@ bool same_device(const std::string& a, const std::string& b) {
 
 void write_experiments_summary(const std::vector<Measurement>& all, const std::filesystem::path& folder) {
   const std::filesystem::path part = folder / "experiments-summary.csv.part";
+  const auto cell = [](const std::optional<double>& v) { return v ? CsvCell(*v) : CsvCell(""); };
   {
     CsvFile table(part, {"device", "copy", "quantity", "tests", "mean", "standard_deviation", "relative_deviation",
                          "lowest", "highest"});
@@ -76,8 +77,8 @@ void write_experiments_summary(const std::vector<Measurement>& all, const std::f
       for (const std::string& copy : copies)
         for (const std::string& quantity : names_of(all, &Measurement::quantity, device))
           if (const Spread s = spread_of(all, device, copy, quantity); s.tests > 0)
-            table.append({device, copy.empty() ? "all" : copy, quantity, double(s.tests), s.mean, s.deviation,
-                          s.relative_deviation(), s.low, s.high});
+            table.append({device, copy.empty() ? "all" : copy, quantity, double(s.tests), s.mean, cell(s.deviation),
+                          cell(s.relative_deviation()), s.low, s.high});
     }
     table.flush();
   }

@@ -2,6 +2,7 @@
 // Measurements beside a study: a table of tests, and what they come to by copy of the device and by device.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,9 +20,12 @@ std::vector<Measurement> read_experiments(const std::filesystem::path& file);
 
 struct Spread {
   int tests = 0;
-  double mean = 0.0, deviation = 0.0;  // of the sample, n - 1; 0 for one test
+  double mean = 0.0;
+  std::optional<double> deviation;  // of the sample, n - 1; none of one test
   double low = 0.0, high = 0.0;
-  double relative_deviation() const { return mean != 0.0 ? deviation / mean : 0.0; }
+  std::optional<double> relative_deviation() const {
+    return deviation && mean != 0.0 ? std::optional(*deviation / mean) : std::nullopt;
+  }
 };
 /// Of one quantity of a device; copy "" for all copies together. tests = 0 if there are none.
 Spread spread_of(const std::vector<Measurement>& all, const std::string& device, const std::string& copy,

@@ -1,6 +1,7 @@
 #include "tools/output/output_folder.hpp"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -82,6 +83,7 @@ void point_latest(const fs::path& folder) {
 /// True if the folder holds a run to go on with.
 bool refuse_or_clear(const fs::path& folder, bool resume) {
   const std::string where = folder.string();
+  if (fs::exists(folder / "study.json")) throw OutputError(where + " holds a study; choose another folder with --out");
   const bool from_a_run = fs::exists(folder / "status.json");
   const bool has_checkpoints = from_a_run && !list_checkpoints(folder).empty();
   if (fs::exists(folder / "summary.json")) {
@@ -157,6 +159,7 @@ OutputFolder::OutputFolder(const std::optional<fs::path>& out, const std::string
     const fs::path plain = fs::absolute(*out).lexically_normal();  // a/../b makes no a
     make_folder(plain);
     path_ = fs::canonical(plain);
+    hold();
     resumed_ = refuse_or_clear(path_, resume);
     return;
   }
@@ -165,11 +168,26 @@ OutputFolder::OutputFolder(const std::optional<fs::path>& out, const std::string
     std::error_code error;
     path_ = fs::canonical(parent / "latest", error);
     if (error) throw OutputError(parent.string() + " holds no run to resume; name its folder with --out");
+    hold();
     resumed_ = refuse_or_clear(path_, true);
     return;
   }
   path_ = fs::canonical(fresh_folder(parent));
+  hold();
   point_latest(path_);
+}
+
+/// Two processes in one folder would write over each other. Leaves nothing behind; on disks that know no such locks
+/// nothing is held.
+void OutputFolder::hold() {
+  const int descriptor = open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  lock_ = std::shared_ptr<const int>(new int(descriptor), [](const int* d) {
+    close(*d);
+    delete d;
+  });
+  if (flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+    throw OutputError("another run is at work in " + path_.string() + "; wait for it, or choose another with --out");
 }
 
 fs::path OutputFolder::file(const fs::path& relative) const {

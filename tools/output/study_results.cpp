@@ -86,9 +86,11 @@ StudyRun run_of(const Json& described, const Json& jobs, const fs::path& study) 
       run.message = text(job, "message");
       run.exit_code = job.value("exit_code", 0);
     }
-  if (run.state == "done")
-    run.summary =
-        summary_of(study / run.folder, run.scalar, text(described, "replay"), described.value("fines_of_dose", 0.0));
+  if (run.state != "done") return run;
+  const std::string replay = text(described, "replay");
+  run.summary = summary_of(study / run.folder, run.scalar, replay, described.value("fines_of_dose", 0.0));
+  if (!run.summary && !replay.empty())
+    run.state = "failed", run.message = "its fines could not be replayed from this run";
   return run;
 }
 
@@ -138,7 +140,7 @@ void write_comparison(const StudyResults& results, const fs::path& study) {
         const ReferenceValue* thesis = c.given("thesis", ours);
         table.append({c.device, quantity, c.name, e->mean * factor, cell(e->ci_low, factor), cell(e->ci_high, factor),
                       double(e->n), cell(thesis ? std::optional(thesis->given) : std::nullopt, factor), s.mean,
-                      s.deviation, s.low, s.high, double(s.tests)});
+                      cell(s.deviation, 1.0), s.low, s.high, double(s.tests)});
       }
     }
     table.flush();

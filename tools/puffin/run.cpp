@@ -90,6 +90,8 @@ int run_here(const RunOptions& options, cases::Case c, int threads, std::chrono:
     log_info(ending.message + " at t = " + as_time(s.state.time) + "; --resume goes on from here");
   output::Status last = output::read_status(folder.file("status.json"));
   last.state = facts.state;
+  last.wall_clock = facts.wall_clock;
+  if (ending.code == ok) last.eta.reset();
   output::write_status(folder.file("status.json"), last);
   if (options.json) print(output::summary_json(summary));
   return ending.code;

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include <fstream>
 
 #include "tests/tools/output/scratch.hpp"
@@ -27,7 +29,7 @@ TEST(Experiments, GiveTheMeansOfTheThesis) {
                         double relative) {
     const Spread s = spread_of(all, device, copy, quantity);
     EXPECT_NEAR(s.mean, mean, 2 * half) << device << copy << quantity;
-    EXPECT_NEAR(s.relative_deviation(), relative, 0.005 + 1.23 * half / mean) << device << copy << quantity;
+    EXPECT_NEAR(s.relative_deviation().value(), relative, 0.005 + 1.23 * half / mean) << device << copy << quantity;
   };
   near("L-bend", "L1", "dose_mg", 0.05, 8.1, 0.39);
   near("L-bend", "L2", "FFE", 0.005, 0.43, 0.48);
@@ -88,6 +90,16 @@ TEST(Comparison, StandsBesideTheExperimentsInTheirUnits) {
   EXPECT_NEAR(t.numbers("experiment")[0], 0.5, 1e-15);
   EXPECT_NEAR(t.numbers("standard_deviation")[0], 0.1, 1e-15);
   EXPECT_EQ(t.numbers("tests"), (std::vector<double>{3.0, 2.0}));
+}
+
+TEST(Experiments, OneTestHasNoDeviation) {
+  const std::vector<Measurement> all{{"L-bend", "1", "1", "FFE", 0.5}, {"L-bend", "2", "1", "FFE", 0.4}};
+  EXPECT_FALSE(spread_of(all, "L-bend", "1", "FFE").deviation);
+  EXPECT_NEAR(spread_of(all, "L-bend", "", "FFE").deviation.value(), 0.1 / std::sqrt(2.0), 1e-15);
+  const Scratch folder;
+  write_experiments_summary(all, folder.path());
+  const CsvTable table = read_csv(folder / "experiments-summary.csv");
+  EXPECT_EQ(table.rows[0][table.find("standard_deviation")], "");
 }
 
 TEST(StudyReport, HoldsExperimentsAssumptionsPhasesAndSkips) {

@@ -69,6 +69,26 @@ TEST(OutputFolder, ResumingARunKilledBeforeItsFirstCheckpointBeginsAnew) {
   EXPECT_TRUE(OutputFolder(folder / "run", "x", true).resumed());
 }
 
+TEST(OutputFolder, AFolderAtWorkIsRefusedUntilItsRunIsOver) {
+  const Scratch folder;
+  {
+    const OutputFolder run(folder / "run", "x");
+    run.write_text("status.json", "{}");
+    EXPECT_NE(refusal(folder / "run", false).find("another run is at work"), std::string::npos);
+    EXPECT_NE(refusal(folder / "run", true).find("another run is at work"), std::string::npos);
+    EXPECT_TRUE(fs::exists(folder / "run" / "status.json"));
+  }
+  EXPECT_EQ(refusal(folder / "run", false), "");
+}
+
+TEST(OutputFolder, AStudysFolderIsRefused) {
+  const Scratch folder;
+  write_whole(folder / "study.json", "{}");
+  write_whole(folder / "status.json", "{}");
+  EXPECT_NE(refusal(folder.path(), false).find("holds a study"), std::string::npos);
+  EXPECT_TRUE(fs::exists(folder / "status.json"));
+}
+
 TEST(OutputFolder, ResumingWhereNoRunIsIsRefused) {
   const Scratch folder;
   EXPECT_NE(refusal(folder / "run", true).find("without --resume"), std::string::npos);

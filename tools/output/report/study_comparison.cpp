@@ -35,7 +35,7 @@ std::string beside(const StudyResults& results, const std::string& device) {
   std::vector<std::string> measured{"experiment, mean &plusmn; standard deviation"}, range{"experiment, range"};
   for (const std::string& quantity : shown) {
     const Spread s = spread_of(results.experiments, device, "", quantity);
-    measured.push_back(significant(s.mean) + " &plusmn; " + significant(s.deviation, 2) +
+    measured.push_back(significant(s.mean) + (s.deviation ? " &plusmn; " + significant(*s.deviation, 2) : "") +
                        " <span class=soft>(n = " + std::to_string(s.tests) + ")</span>");
     range.push_back(significant(s.low) + " to " + significant(s.high));
   }
@@ -58,6 +58,10 @@ std::string beside(const StudyResults& results, const std::string& device) {
   return "<h3>" + escaped(device) + ": simulation, thesis and experiment</h3>\n" + table(head, rows);
 }
 
+std::string in_brackets(const std::optional<double>& value) {
+  return value ? " <span class=soft>(" + significant(*value, 2) + ")</span>" : "";
+}
+
 /// Tables 4.7 to 4.9: copies and all together, mean with the relative standard deviation.
 std::string copies(const Measurements& all, const std::string& device) {
   std::vector<std::string> head{"copy", "tests"};
@@ -72,9 +76,7 @@ std::string copies(const Measurements& all, const std::string& device) {
     std::vector<std::string> row{copy.empty() ? "<b>all</b>" : escaped(copy), std::to_string(tests)};
     for (const std::string& q : quantities) {
       const Spread s = spread_of(all, device, copy, q);
-      row.push_back(s.tests == 0 ? ""
-                                 : significant(s.mean) + " <span class=soft>(" +
-                                       significant(s.relative_deviation(), 2) + ")</span>");
+      row.push_back(s.tests == 0 ? "" : significant(s.mean) + in_brackets(s.relative_deviation()));
     }
     rows.push_back(row);
   }

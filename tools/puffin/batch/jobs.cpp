@@ -10,6 +10,7 @@
 
 #include "cases/case_error.hpp"
 #include "cases/choices.hpp"
+#include "cases/micromodel_file.hpp"
 #include "cases/toml_string.hpp"
 #include "cases/units.hpp"
 #include "cases/write_case.hpp"
@@ -85,6 +86,8 @@ Candidate candidate(const cases::Study& study, std::size_t which, int replicate,
   c.job.base = asked.base;
   try {
     c.described = cases::read_study_case(asked, replicate, preset);
+    if (const auto& fines = c.described->fines; fines && !fines->micromodels.empty())
+      cases::read_micromodels(fines->micromodels);  // its mistakes are this case's, whoever it shares a run with
     c.job.sets = cases::overrides_of(asked, replicate);
     c.job.resolved = cases::write_resolved(*c.described);
     c.job.settles = study.share.start && !bed_key(*c.described).empty();
@@ -127,7 +130,9 @@ Job merged(const cases::Study& study, const std::vector<Candidate>& all, const s
   job.sets.push_back({"name", cases::toml_string(name)});
   const cases::Case c = cases::read_case(job.base, job.sets, preset);
   job.resolved = cases::write_resolved(c);
-  job.id = "shared/" + output::folder_name(name);
+  constexpr std::size_t longest = 100;  // some systems take no more than 255
+  job.id = "shared/" + output::folder_name(name).substr(0, longest);
+  if (name.size() > longest) job.id += "-and-more-" + std::to_string(group.size());
   return job;
 }
 
@@ -231,6 +236,22 @@ bool is_named(const cases::Study& study, const Job& job, const std::string& patt
          });
 }
 
+namespace {
+
+/// Names that differ in what no folder can bear would make two cases one.
+void require_own_folders(const cases::Study& study, const std::vector<Job>& jobs) {
+  std::map<std::string, std::string> owners;
+  for (const Job& job : jobs) {
+    const auto [at, fresh] = owners.emplace(job.id, listed(study, job));
+    if (!fresh)
+      throw cases::CaseError({{study.file.string(), 0, 0, "",
+                               "the cases '" + at->second + "' and '" + listed(study, job) +
+                                   "' would share the folder " + job.id + "; rename one of them"}});
+  }
+}
+
+}  // namespace
+
 Jobs plan_jobs(const cases::Study& study, std::string_view preset) {
   Jobs plan;
   for (int replicate = 0; replicate < study.replicates; ++replicate) {
@@ -248,6 +269,7 @@ Jobs plan_jobs(const cases::Study& study, std::string_view preset) {
       plan.jobs.push_back(std::move(job));
     }
   }
+  require_own_folders(study, plan.jobs);
   explain(study, plan.jobs, plan.sharings);
   if (study.share.start) explain_beds(study, preset, plan);
   if (study.share.one_way_flow) share_flows(study, preset, plan);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "tools/output/output_folder.hpp"
@@ -22,6 +23,15 @@ std::string list_of(const std::vector<std::size_t>& group, const Jobs& plan, con
     list.push_back({{"case", plan.jobs[m].base.string()}, {"out", book.run_folder(m).string()}, {"set", sets}});
   }
   return list.dump(1) + "\n";
+}
+
+/// The first problem that a command with --json has printed.
+std::string told_in(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  const nlohmann::json json = nlohmann::json::parse(stream, nullptr, false);
+  const nlohmann::json::json_pointer first("/problems/0/message");
+  return json.is_object() && json.contains(first) && json[first].is_string() ? json[first].get<std::string>()
+                                                                             : "it said nothing";
 }
 
 }  // namespace
@@ -48,22 +58,28 @@ std::vector<std::string> run_arguments(const std::vector<std::size_t>& group, in
   return arguments;
 }
 
-void replay_members(std::size_t job, const cases::Study& study, const Jobs& plan, const Book& book) {
-  const std::filesystem::path log = book.log_file(job);
+bool complete(std::size_t job, const cases::Study& study, const Jobs& plan, const Book& book) {
+  const std::string log = book.log_file(job).string(), run = book.run_folder(job).string();
+  const auto called = [&](const std::string& arguments, const std::string& out) {
+    static const std::string program = shell_quoted(std::filesystem::read_symlink("/proc/self/exe").string());
+    return std::system((program + " " + arguments + " > " + shell_quoted(out) + " 2>> " + shell_quoted(log)).c_str());
+  };
+  bool whole = true;
   for (const Member& m : plan.jobs[job].members) {
     const std::filesystem::path file = book.replay_file(job, m), part = file.string() + ".part";
     if (m.micromodels.empty() || std::filesystem::exists(file)) continue;
     std::filesystem::remove(part);  // a link would be written through
-    const std::string program = std::filesystem::read_symlink("/proc/self/exe").string();
-    const int code = std::system((shell_quoted(program) + " replay " + shell_quoted(book.run_folder(job).string()) +
-                                  " --micromodels " + shell_quoted(m.micromodels) + " --json > " +
-                                  shell_quoted(part.string()) + " 2>> " + shell_quoted(log.string()))
-                                     .c_str());
-    if (code == 0)
+    if (called("replay " + shell_quoted(run) + " --micromodels " + shell_quoted(m.micromodels) + " --json", part) ==
+        0) {
       output::finish_file(part, file);
-    else
-      log_warning(study.cases[m.which].name + ": no replay of " + plan.jobs[job].id + ": " + last_line(log));
+      continue;
+    }
+    whole = false;
+    log_error(study.cases[m.which].name + ": no replay of " + plan.jobs[job].id + ": " + told_in(part));
+    std::filesystem::remove(part);
   }
+  if (!std::filesystem::exists(run + "/report.html")) called("report " + shell_quoted(run), "/dev/null");
+  return whole;
 }
 
 }  // namespace puffin::tools

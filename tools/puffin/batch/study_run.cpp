@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <csignal>
+#include <cstring>
 #include <thread>
 
+#include "tools/output/output_folder.hpp"
 #include "tools/output/summary.hpp"
 #include "tools/puffin/batch/pool.hpp"
 #include "tools/puffin/batch/program_calls.hpp"
@@ -18,6 +20,7 @@ using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 volatile std::sig_atomic_t received = 0;
+constexpr int killed_by = 128;  // and the signal's number: Child::ended
 
 struct Running {
   std::size_t job;
@@ -113,13 +116,15 @@ class Batch {
       if (!wanted(plan_.jobs[n])) continue;
       if (!plan_.jobs[n].problem.empty()) {
         fail(n, case_invalid, plan_.jobs[n].problem);
+        std::filesystem::create_directories(book_.run_folder(n));
+        output::write_whole(book_.log_file(n), plan_.jobs[n].problem + "\n");
         continue;
       }
       if (book_.finished(n)) {
         r.state = JobState::done;
         r.exit_code = ok;
         r.message.clear();
-        replay_members(n, study_, plan_, book_);
+        incomplete_ = !complete(n, study_, plan_, book_) || incomplete_;
         continue;
       }
       if (r.state == JobState::failed && !options_.retry_failed) {
@@ -197,14 +202,18 @@ class Batch {
     r.exit_code = code;
     if (code == ok && book_.finished(n)) {
       r.state = JobState::done;
-      replay_members(n, study_, plan_, book_);
+      incomplete_ = !complete(n, study_, plan_, book_) || incomplete_;
       if (options_.slurm) r.seconds = output::read_summary(book_.run_folder(n) / "summary.json").wall_clock;
       if (!options_.quiet) log_info(plan_.jobs[n].id + ": done in " + as_time(r.seconds));
     } else if (code == stopped || code == interrupted) {
       r.state = JobState::stopped;
       log_warning(plan_.jobs[n].id + ": stopped; the same command goes on with it");
     } else {
-      fail(n, code == ok ? internal_error : code, last_line(book_.log_file(n)));
+      fail(n, code == ok ? internal_error : code,
+           code > killed_by
+               ? "ended by signal " + std::to_string(code - killed_by) + " (" + strsignal(code - killed_by) +
+                     "); the same command with --retry-failed goes on with it"
+               : last_line(book_.log_file(n)));
     }
   }
 
@@ -238,7 +247,7 @@ class Batch {
     }
     if (received == SIGINT) return interrupted;
     if (received == SIGTERM || (unfinished && !failed)) return stopped;
-    return failed ? batch_failed : ok;
+    return failed || incomplete_ ? batch_failed : ok;
   }
 
   const BatchOptions& options_;
@@ -250,6 +259,7 @@ class Batch {
   std::vector<std::size_t> waiting_;
   std::vector<Running> running_;
   bool told_ = false;
+  bool incomplete_ = false;  // a case that shares a run has no results
   double last_live_ = -1e9;
   std::string live_state_ = "running";
 };

@@ -1,0 +1,82 @@
+// Studies and the folders they write: one for each case, none of another run, nothing missing in them.
+
+#include "tests/tools/run/batch_study.hpp"
+#include "tools/output/study_results.hpp"
+#include "tools/output/summary.hpp"
+
+namespace {
+
+using namespace puffin;
+using namespace puffin::test;
+
+TEST_F(BatchStudy, CasesThatOneFolderWouldHoldAreRefusedTogether) {
+  file("study.toml",
+       "base = \"case.toml\"\n[[case]]\nname = \"a/b\"\nset = { \"air.density\" = 1.3 }\n[[case]]\nname = \"a_b\"\n");
+  EXPECT_EQ(batch(""), 3);
+  EXPECT_NE(text("log.txt").find("the cases 'a/b' and 'a_b' would share the folder a_b/seed-1"), std::string::npos)
+      << text("log.txt");
+  EXPECT_FALSE(fs::exists(folder_ / "out/a_b/seed-1/summary.json"));
+}
+
+TEST_F(BatchStudy, AStudyAndARunDoNotShareAFolder) {
+  const std::string program = std::string(PUFFIN_BINARY_DIR) + "/puffin ";
+  ASSERT_EQ(shell(program + "run case.toml --out out --quiet --no-report > /dev/null 2> log.txt"), 0)
+      << text("log.txt");
+  file("study.toml", "base = \"case.toml\"\n[[case]]\nname = \"a\"\n");
+  const std::string before = text("out/status.json");
+  EXPECT_EQ(batch(""), 7);
+  EXPECT_NE(text("log.txt").find("holds a run"), std::string::npos) << text("log.txt");
+  EXPECT_EQ(text("out/status.json"), before);
+
+  ASSERT_EQ(shell(program + "batch study.toml --out study > /dev/null 2> log.txt"), 0) << text("log.txt");
+  const std::string page = text("study/index.html");
+  EXPECT_EQ(shell(program + "run case.toml --out study > /dev/null 2> log.txt"), 7);
+  EXPECT_NE(text("log.txt").find("holds a study"), std::string::npos) << text("log.txt");
+  EXPECT_EQ(text("study/index.html"), page);
+}
+
+TEST_F(BatchStudy, APageThatAKillHasPreventedIsMadeLater) {
+  file("study.toml", "base = \"case.toml\"\n[[case]]\nname = \"a\"\n");
+  ASSERT_EQ(batch(""), 0) << text("log.txt");
+  fs::remove(folder_ / "out/a/seed-1/report.html");
+  ASSERT_EQ(batch(""), 0) << text("log.txt");
+  EXPECT_TRUE(fs::exists(folder_ / "out/a/seed-1/report.html"));
+}
+
+/// A few carriers that fall onto a floor, with fines.
+constexpr const char* fall = R"toml(
+schema = 1
+name = "fall"
+geometry = { generator = "box", box = { x = "1 mm", y = "1 mm", z = "1 mm" } }
+air = { model = "none" }
+stop = { time = "1 ms" }
+output = { statistics = "0.5 ms" }
+[carriers]
+list = [{ position = [5e-4, 5e-4, 5e-4], velocity = [0.0, 0.0, -2.0], diameter = "100 um", density = "1520 kg/m^3" }]
+gravity = [0.0, 0.0, -9.81]
+fines_each = 100
+[fines]
+micromodels = "sound.toml"
+[[fines.scalar]]
+name = "drug"
+diffusion = "1e-6 kg/(m s)"
+)toml";
+
+TEST_F(BatchStudy, LawsThatCannotBeReadFailTheirCaseAloneAlsoWhereRunsAreShared) {
+  file("case.toml", fall);
+  file("sound.toml",
+       "label = \"given\"\nsource = \"test\"\nsurface_energy = 3.6e-3\n[wall_detach]\nlaw = \"power\"\n"
+       "A = [0.1, 1.0, 0.01, 0.1, 0.0]\nvalid = [0.0, 100.0]\n");
+  file("wrong.toml", "label = \"given\"\nsource = \"test\"\n[wall_detach]\nlaw = \"pwer\"\n");
+  file("study.toml",
+       "base = \"case.toml\"\nshare = [\"micromodels\"]\n[[case]]\nname = \"a\"\n[[case]]\nname = \"b\"\n"
+       "set = { \"fines.micromodels\" = \"wrong.toml\" }\n");
+  EXPECT_EQ(batch(""), 8) << text("log.txt");
+  const output::StudyResults results = output::read_study_results(folder_ / "out");
+  EXPECT_EQ(results.cases[0].runs[0].state, "done");
+  EXPECT_EQ(results.cases[1].runs[0].state, "failed");
+  EXPECT_EQ(results.cases[1].runs[0].exit_code, 3);
+  EXPECT_NE(text("out/b/seed-1/run.log").find("pwer"), std::string::npos) << text("out/b/seed-1/run.log");
+}
+
+}  // namespace
