@@ -53,6 +53,25 @@ bool wants_json(int argc, char** argv) {
   return false;
 }
 
+/// What is wrong with the words before the options, and what may be meant; "" if all are known. Of "puffin geometry
+/// dukt" the parser alone would only say that it misses a subcommand.
+std::string unknown_word(const CLI::App& app, const std::vector<std::string>& names, int argc, char** argv) {
+  const auto unknown = [](const std::string& word, const std::vector<std::string>& known) {
+    return !word.starts_with('-') && std::find(known.begin(), known.end(), word) == known.end();
+  };
+  if (argc < 2 || argv[1][0] == '-') return "";
+  const std::string first = argv[1], second = argc > 2 ? argv[2] : "-";
+  if (unknown(first, names)) {
+    const std::string near = cases::nearest(first, names);
+    return "unknown command '" + first + "'; " +
+           (near.empty() ? "the commands are " + cases::join(names) : "did you mean '" + near + "'?");
+  }
+  std::vector<std::string> known;
+  for (const CLI::App* sub : app.get_subcommand(first)->get_subcommands({})) known.push_back(sub->get_name());
+  if (known.empty() || !unknown(second, known)) return "";
+  return "unknown word '" + second + "' after 'puffin " + first + "'" + cases::did_you_mean_or_known(second, known);
+}
+
 int run(int argc, char** argv) {
   const bool json = wants_json(argc, argv);
   set_up_log(false);
@@ -70,12 +89,8 @@ int run(int argc, char** argv) {
   const char* isa = std::getenv("PUFFIN_ISA");
   if (const std::string_view problem = lbm::isa_problem(isa); !problem.empty())
     return report(UsageError("PUFFIN_ISA=" + std::string(isa) + " " + std::string(problem)), json);
-  const std::string first = argc > 1 ? argv[1] : "-";
-  if (!first.starts_with('-') && std::find(names.begin(), names.end(), first) == names.end()) {
-    const std::string near = cases::nearest(first, names);
-    const std::string hint = near.empty() ? "the commands are " + cases::join(names) : "did you mean '" + near + "'?";
-    return report(UsageError("unknown command '" + first + "'; " + hint), json);
-  }
+  if (const std::string text = unknown_word(app, names, argc, argv); !text.empty())
+    return report(UsageError(text), json);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
