@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <stdexcept>
 
 #include "cases/format/phrases.hpp"
@@ -25,6 +26,15 @@ const Unit* unit_of_parameter(const std::string& kind, const std::string& name) 
     if (info.unit.empty()) return &unit::number;
   }
   return nullptr;
+}
+
+/// Whether what stands in the file could be read; else that was told, and the value is no number.
+bool was_read(const Parameter& value) {
+  const auto number = [](double v) { return !std::isnan(v); };
+  if (const auto* v = std::get_if<double>(&value)) return number(*v);
+  if (const auto* list = std::get_if<std::vector<double>>(&value))
+    return std::all_of(list->begin(), list->end(), number);
+  return true;
 }
 
 void describe_generated(Fields& io, Generated& g) {
@@ -53,7 +63,12 @@ void describe_parameters(Fields& io, const std::string& kind, std::map<std::stri
   io.everything(
       parameters, [&](const std::string& name) { return unit_of_parameter(kind, name); }, false);
   if (!io.reading()) return;
-  for (const ParameterProblem& p : check_parameters(kind, parameters)) io.problem(p.parameter, p.message);
+  for (const ParameterProblem& p : check_parameters(kind, parameters)) {
+    const auto value = parameters.find(p.parameter);
+    const bool known = unit_of_parameter(kind, p.parameter) != nullptr;
+    if (known && value != parameters.end() && !was_read(value->second)) continue;  // no second complaint
+    io.problem(p.parameter, p.message);
+  }
 }
 
 void describe(Fields& io, Geometry& g) {

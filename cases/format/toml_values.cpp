@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "cases/format/toml_fields.hpp"
 #include "cases/spelling.hpp"
@@ -9,6 +10,8 @@
 namespace puffin::cases::format {
 namespace {
 
+/// In place of a number that could not be read, which was told: no file can hold it.
+constexpr double unreadable = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t longest_name = 200;  // [byte]: it becomes part of the names of folders
 
 std::vector<std::string> offered(std::span<const Choice> words) {
@@ -199,11 +202,10 @@ Parameter TomlFields::to_parameter(std::string_view key, const toml::node& node,
   if (word) return s->get();
   if (const auto* array = node.as_array()) {
     std::vector<double> list;
-    for (const toml::node& element : *array)
-      if (const std::optional<double> number = to_number(key, element, u)) list.push_back(*number);
+    for (const toml::node& element : *array) list.push_back(to_number(key, element, u).value_or(unreadable));
     return list;
   }
-  return to_number(key, node, u).value_or(0.0);
+  return to_number(key, node, u).value_or(unreadable);
 }
 
 void TomlFields::everything(std::map<std::string, Parameter>& values, const UnitOf& unit_of, bool nested) {
