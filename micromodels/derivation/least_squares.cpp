@@ -47,7 +47,7 @@ Estimate LeastSquares::estimate_of(const Eigen::VectorXd& weights) const {
 }
 
 LeastSquares least_squares(const std::function<void(const Eigen::VectorXd&, Eigen::VectorXd&)>& residuals, int count,
-                           const Eigen::VectorXd& start) {
+                           const Eigen::VectorXd& start, double first_step) {
   const int parameters = static_cast<int>(start.size());
   if (count < parameters) throw std::invalid_argument("a fit needs at least as many points as parameters");
   Functor plain;
@@ -58,6 +58,11 @@ LeastSquares least_squares(const std::function<void(const Eigen::VectorXd&, Eige
   Eigen::LevenbergMarquardt<Eigen::NumericalDiff<Functor>> solver(functor);
   solver.parameters.maxfev = 4000;
   solver.parameters.xtol = solver.parameters.ftol = 1e-12;
+  if (first_step > 0.0) {
+    solver.useExternalScaling = true;
+    solver.diag = Eigen::VectorXd::Ones(parameters);
+    solver.parameters.factor = first_step / (start.norm() > 0.0 ? start.norm() : 1.0);
+  }
   LeastSquares fit;
   fit.x = start;
   solver.minimize(fit.x);

@@ -25,8 +25,10 @@ struct LeastSquares {
 
 /// Levenberg-Marquardt (More, Argonne report ANL-80-74, 1980; Eigen's port of MINPACK) with forward differences.
 /// residuals(x, r) fills r, of length `count`. Throws std::invalid_argument with fewer residuals than parameters.
+/// first_step > 0: no longer than that is the first step, in x as it stands (later ones at most twice the last that
+/// served): for residuals that are flat far from the start, where a long step would end.
 LeastSquares least_squares(const std::function<void(const Eigen::VectorXd&, Eigen::VectorXd&)>& residuals, int count,
-                           const Eigen::VectorXd& start);
+                           const Eigen::VectorXd& start, double first_step = 0.0);
 
 /// Two-sided 95 % quantile of Student's t (Cornish-Fisher series, Abramowitz & Stegun 26.7.5; tabulated up to 9).
 double student_95(int freedom);

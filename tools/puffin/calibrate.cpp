@@ -10,6 +10,8 @@ namespace {
 using micromodels::FinesModels;
 using micromodels::Law;
 
+const double reach = std::log(calibration_reach);
+
 std::optional<Law>& law_of(FinesModels& models, const std::string& mechanism) {
   if (mechanism == "wall_detach") return models.wall_detach;
   if (mechanism == "wall_attach") return models.wall_attach;
@@ -19,17 +21,16 @@ std::optional<Law>& law_of(FinesModels& models, const std::string& mechanism) {
                               "'; use wall_detach, wall_attach, particle_detach or drag_detach");
 }
 
-/// The law with `key` times `factor`, or nothing if it has no such constant. `value`: before.
+/// The law with `key` times `factor`, or nothing if it has no such constant. `value`: afterwards.
 std::optional<Law> scaled(const Law& law, const std::string& key, double factor, double& value) {
   if (const auto* power = std::get_if<micromodels::PowerLaw>(&law)) {
     auto a = power->constants();
     if (key == "scale") {
-      value = 1.0;
+      value = factor;
       a[0] *= factor, a[3] *= factor;
     } else if (key.size() == 2 && key[0] == 'A' && key[1] >= '0' && key[1] <= '4') {
       const auto k = static_cast<std::size_t>(key[1] - '0');
-      value = a[k];
-      a[k] *= factor;
+      value = a[k] *= factor;
     } else {
       return {};
     }
@@ -39,9 +40,9 @@ std::optional<Law> scaled(const Law& law, const std::string& key, double factor,
     auto c = old.constants();
     for (const auto& [name, member] : members)
       if (key == name) {
-        value = c.*member;
         c.*member *= factor;
         if (key == "limit" || key == "scale") c.limit = std::min(c.limit, 1.0);
+        value = c.*member;
         return Law(std::decay_t<decltype(old)>(c, old.valid()));
       }
     return {};
@@ -63,7 +64,7 @@ std::optional<Law> scaled(const Law& law, const std::string& key, double factor,
   return {};
 }
 
-/// Models with every named constant times exp(x).
+/// Models with every named constant times exp(x), within reach. `values`: those of the constants then.
 FinesModels with(FinesModels models, const std::vector<std::string>& constants, const Eigen::VectorXd& x,
                  std::vector<double>* values = nullptr) {
   for (std::size_t k = 0; k < constants.size(); ++k) {
@@ -72,7 +73,7 @@ FinesModels with(FinesModels models, const std::vector<std::string>& constants, 
     if (!law) throw std::invalid_argument(constants[k] + ": that mechanism does not act in the micro-model file");
     double value = 0.0;
     const std::string key = dot == std::string::npos ? "scale" : constants[k].substr(dot + 1);
-    auto changed = scaled(*law, key, std::exp(std::clamp(x[static_cast<Eigen::Index>(k)], -30.0, 30.0)), value);
+    auto changed = scaled(*law, key, std::exp(std::clamp(x[static_cast<Eigen::Index>(k)], -reach, reach)), value);
     if (!changed)
       throw std::invalid_argument(constants[k] + ": a " + micromodels::name(*law) + " law has no such constant");
     if (!(value > 0.0))
@@ -110,24 +111,25 @@ Calibration calibrate(const FinesModels& start, const std::vector<StoredRun>& ru
     }
   };
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(constants.size()));
-  std::vector<double> values;
-  with(start, constants, zero, &values);
+  with(start, constants, zero);  // refuses unknown ones before the first replay
   std::vector<Target> now = targets;
   const auto fit = micromodels::derivation::least_squares(
       [&](const Eigen::VectorXd& x, Eigen::VectorXd& r) {
         predict(with(start, constants, x), now);
         for (std::size_t k = 0; k < now.size(); ++k) r[static_cast<Eigen::Index>(k)] = now[k].ours - now[k].value;
       },
-      static_cast<int>(targets.size()), zero);
+      static_cast<int>(targets.size()), zero, 1.0);  // at first by a factor e: more saturates what a law may take
   Calibration result;
-  result.models = with(start, constants, fit.x);
+  std::vector<double> values;
+  result.models = with(start, constants, fit.x, &values);
   result.models.label = micromodels::Label::calibrated;
   predict(result.models, now);
   result.targets = now;
   for (std::size_t k = 0; k < constants.size(); ++k) {
     const auto e = fit.estimate(static_cast<int>(k));
+    const double down = std::exp(e.low - e.value), up = std::exp(e.high - e.value);
     result.constants.push_back(
-        {constants[k], {values[k] * std::exp(e.value), values[k] * std::exp(e.low), values[k] * std::exp(e.high)}});
+        {constants[k], {values[k], values[k] * down, values[k] * up}, std::abs(e.value) >= reach});
   }
   result.rms = std::sqrt(fit.sum_of_squares / static_cast<double>(targets.size()));
   return result;

@@ -23,6 +23,7 @@ struct Target {
 struct FreeConstant {
   std::string name;
   micromodels::derivation::Estimate estimate;
+  bool at_end_of_reach = false;
 };
 
 struct Calibration {
@@ -31,6 +32,10 @@ struct Calibration {
   std::vector<Target> targets;  // with ours after the fit
   double rms = 0.0;             // of ours - value
 };
+
+/// How far a constant may go from its start: to this many times, or this part of it. A law that takes all the fines
+/// there are, or none, feels no more of it, so that without an end a fit goes on to any number.
+constexpr double calibration_reach = 1000.0;
 
 /// Least squares in the logarithms of the constants, which stay positive. The fates of airborne fines are those of each
 /// run. Throws std::invalid_argument if a constant is unknown or 0, or there are fewer targets than constants.

@@ -70,6 +70,10 @@ void write_result(const FitArguments& a, const micromodels::FinesModels& models,
 }
 
 int fit_table(const FitArguments& a) {
+  for (const auto& input : a.inputs)
+    if (std::filesystem::is_directory(input))
+      throw UsageError("fit: " + input.string() +
+                       " is a folder, not a table; with --calibrate constants are fitted to the outcome of runs");
   if (a.inputs.size() != 1) throw UsageError("fit: give one table (or --calibrate for runs)");
   const std::vector<Point> points = read_points(a.inputs.front());
   micromodels::FinesModels models;
@@ -121,6 +125,33 @@ int fit_table(const FitArguments& a) {
   return ok;
 }
 
+/// Targets are parts of one dose: each in 0..1, and those of a run at most 1 together.
+void check_targets(const FitArguments& a, const std::vector<Target>& targets) {
+  std::map<std::size_t, double> sums;
+  for (const Target& t : targets) {
+    const std::string what = "fit --calibrate: the target " + t.quantity + " = " + four_digits(t.value);
+    if (!(t.value >= 0.0 && t.value <= 1.0)) throw UsageError(what + " is no part of the dose; it must be in 0..1");
+    sums[t.run] += t.value;
+  }
+  for (const auto& [run, sum] : sums)
+    if (sum > 1.0 + 1e-9)  // rounding
+      throw UsageError("fit --calibrate: the targets of " + a.inputs[run].string() + " sum to " + four_digits(sum) +
+                       "; parts of one dose are at most 1 together");
+}
+
+/// The number that is the whole text.
+double number_of(const std::string& text) {
+  std::size_t used = 0;
+  double value = 0.0;
+  try {
+    value = std::stod(text, &used);
+  } catch (const std::logic_error&) {
+    used = 0;
+  }
+  if (used == 0 || used != text.size()) throw std::invalid_argument("'" + text + "' is no number");
+  return value;
+}
+
 /// [run:]NAME=VALUE; a run by its place on the command line, from 1; without one: every run.
 std::vector<Target> read_targets(const FitArguments& a) {
   std::vector<Target> targets;
@@ -129,7 +160,7 @@ std::vector<Target> read_targets(const FitArguments& a) {
       if (equals == std::string::npos) throw std::invalid_argument("no '='");
       const bool one = colon != std::string::npos && colon < equals;
       const std::string quantity = text.substr(one ? colon + 1 : 0, equals - (one ? colon + 1 : 0));
-      const double value = std::stod(text.substr(equals + 1));
+      const double value = number_of(text.substr(equals + 1));
       const std::size_t run = one ? std::stoul(text.substr(0, colon)) : 0;
       if (one && (run < 1 || run > a.inputs.size())) throw std::invalid_argument("no such run");
       for (std::size_t r = 0; r < a.inputs.size(); ++r)
@@ -145,15 +176,33 @@ std::vector<Target> read_targets(const FitArguments& a) {
   return targets;
 }
 
+/// What the fit did not reach, and that it stopped where a constant may go no farther.
+std::vector<std::string> misses(const FitArguments& a, const Calibration& result) {
+  constexpr double noticed = 1e-3;  // of the dose; a fit that meets its targets misses by rounding
+  std::vector<std::string> texts;
+  for (const Target& t : result.targets)
+    if (!(std::abs(t.ours - t.value) <= noticed))
+      texts.push_back("the target " + t.quantity + " = " + four_digits(t.value) + " of " + a.inputs[t.run].string() +
+                      " is not met: " + four_digits(t.ours) + " is the nearest that was found, a miss of " +
+                      four_digits(t.ours - t.value));
+  if (texts.empty()) return texts;
+  for (const FreeConstant& c : result.constants)
+    if (c.at_end_of_reach)
+      texts.push_back(c.name + " stopped at " + four_digits(c.estimate.value) + ", where it may go no farther");
+  return texts;
+}
+
 int calibrate_runs(const FitArguments& a) {
   if (a.inputs.empty() || a.start.empty())
     throw UsageError("fit --calibrate: give run folders and --micromodels, the start");
+  const std::vector<Target> targets = read_targets(a);
+  check_targets(a, targets);
   std::vector<StoredRun> runs;
   for (const auto& folder : a.inputs) runs.push_back(read_stored_run(folder));
   const auto start = cases::read_micromodels(cases::found_micromodels(a.start));
   Calibration result;
   try {
-    result = calibrate(start, runs, read_targets(a), a.constants);
+    result = calibrate(start, runs, targets, a.constants);
   } catch (const std::invalid_argument& e) {
     throw UsageError(std::string("fit --calibrate: ") + e.what());
   }
@@ -163,9 +212,11 @@ int calibrate_runs(const FitArguments& a) {
   for (const auto& t : result.targets)
     comment += '\n' + a.inputs[t.run].filename().string() + " " + t.quantity + ": target " + four_digits(t.value) +
                ", fitted " + four_digits(t.ours);
+  const std::vector<std::string> warnings = misses(a, result);
+  for (const std::string& warning : warnings) log_warning(warning);
   write_result(a, result.models, comment, {});
   if (a.as_json) {
-    json j{{"rms", result.rms}, {"constants", json::object()}, {"targets", json::array()}};
+    json j{{"rms", result.rms}, {"constants", json::object()}, {"targets", json::array()}, {"warnings", warnings}};
     for (const auto& c : result.constants) j["constants"][c.name] = to_json(c.estimate);
     for (const auto& t : result.targets)
       j["targets"].push_back({{"run", a.inputs[t.run].string()},

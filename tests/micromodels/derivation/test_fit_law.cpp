@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -98,6 +99,16 @@ TEST(Fits, refuse_nonsense) {
   bad[0].error = 0.0;
   EXPECT_THROW(fit_power(bad), std::invalid_argument);
   EXPECT_THROW(fit_weibull(good, 0.0, 1.0, false), std::invalid_argument);
+}
+
+TEST(LeastSquares, a_short_first_step_stays_where_the_residual_is_felt) {
+  // 0.02 e^x = 0.3 at x = ln 15. The tangent at 0 leads to x = 14, where the residual is 0.2 however x changes.
+  const auto residual = [](const Eigen::VectorXd& x, Eigen::VectorXd& r) {
+    r[0] = std::min(0.02 * std::exp(x[0]), 0.5) - 0.3;
+  };
+  const Eigen::VectorXd start = Eigen::VectorXd::Zero(1);
+  EXPECT_NEAR(least_squares(residual, 1, start, 1.0).x[0], std::log(15.0), 1e-9);
+  EXPECT_NEAR(least_squares(residual, 1, start).sum_of_squares, 0.04, 1e-9) << "else a short step has no reason";
 }
 
 TEST(Student, is_the_tabulated_quantile) {

@@ -65,6 +65,18 @@ TEST_F(Replay, TheRunsOwnConstantsReturnItsResults) {
   ASSERT_EQ(puffin("replay out --micromodels c.toml --json", "c2.json"), 0) << text("c2.json.log");
   EXPECT_NEAR(json::parse(text("c2.json")).at("fines").at(f.name).at("FFCR").get<double>(), left, miss);
 
+  // More on the walls than came off: no constant brings it about. The fit says so, and ends.
+  ASSERT_EQ(puffin("micromodel fit --calibrate out --micromodels lactose-3.6e-3.toml --free wall_attach.scale --target "
+                   "FFW=1 --json --out far.toml",
+                   "far.json"),
+            0)
+      << text("far.json.log");
+  const json far = json::parse(text("far.json"));
+  EXPECT_LT(far.at("constants").at("wall_attach.scale").at("value").get<double>(), 1001.0);
+  ASSERT_FALSE(far.at("warnings").empty());
+  EXPECT_NE(text("far.json.log").find("the target FFW = 1 of out is not met"), std::string::npos);
+  EXPECT_TRUE(c.at("warnings").empty()) << c;
+
   std::ofstream(folder_ / "bad.toml") << "label = \"given\"\n[wall_detach]\nlaw = \"powr\"\n";
   EXPECT_EQ(puffin("replay out --micromodels bad.toml", "bad"), 3);
   EXPECT_NE(text("bad.log").find("bad.toml:3"), std::string::npos) << text("bad.log");
