@@ -77,6 +77,44 @@ TEST_F(Program, CellsTooCoarseForTheJetOfAnInletAreToldWithARemedy) {
   EXPECT_EQ(puffin("check " + l_base + " --json").out.find("for a jet of"), std::string::npos);
 }
 
+TEST_F(Program, APictureIsOfWhatIsAskedOrTheWordIsRefused) {
+  const std::string air = file("air.toml", R"toml(
+name = "air"
+geometry = { generator = "duct", duct = { length = "2 mm", width = "1 mm", height = "1 mm" } }
+numerics = { dx = "0.2 mm" }
+stop = { time = "0.05 ms" }
+output = { fields = [{ what = ["velocity", "pressure"], region = "all", every = "0.05 ms" }] }
+[air]
+density = "1.204 kg/m^3"
+viscosity = "1.82e-5 Pa s"
+[[air.boundary]]
+patch = "inlet"
+type = "velocity-inlet"
+flow_rate = "1 L/min"
+[[air.boundary]]
+patch = "outlet"
+type = "pressure-outlet"
+)toml");
+  const std::string run = (folder_ / "run").string(), png = (folder_ / "a.png").string();
+  ASSERT_EQ(puffin("run " + air + " --out " + run + " --quiet").code, 0);
+  const auto code = [&](const std::string& arguments) {
+    return puffin("render " + run + " --out " + png + " " + arguments).code;
+  };
+  const auto bytes = [&] {
+    std::ifstream stream(png);
+    return std::string(std::istreambuf_iterator<char>(stream), {});
+  };
+  ASSERT_EQ(code("--view slice"), 0);
+  const std::string speed = bytes();
+  EXPECT_EQ(code("--view slice --quantity speed"), 0);
+  EXPECT_EQ(bytes(), speed);
+  EXPECT_EQ(code("--view slice --quantity pressure --max 50Pa --plane x=1mm"), 0);
+  EXPECT_NE(bytes(), speed);
+  for (const char* refused : {"--quantity fines", "--quantity hits", "--plane x=1m", "--plane x=-1um", "--max 0",
+                              "--quantity pressure --max 2m/s"})
+    EXPECT_EQ(code(std::string("--view slice ") + refused), 2) << refused;
+}
+
 TEST_F(Program, AMissingCaseFileEndsWith7) { EXPECT_EQ(puffin("check no/such/case.toml").code, 7); }
 
 TEST_F(Program, ASurfaceWithAHoleEndsWith4) {

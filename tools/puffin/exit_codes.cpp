@@ -11,6 +11,7 @@
 #include "lbm/geometry/stl.hpp"
 #include "lbm/geometry/surface_check.hpp"
 #include "tools/output/output_error.hpp"
+#include "tools/output/render.hpp"
 
 namespace puffin::tools {
 namespace {
@@ -23,7 +24,7 @@ bool is(const std::exception& error) {
 }  // namespace
 
 ExitCode exit_code(const std::exception& error) {
-  if (is<UsageError>(error)) return usage;
+  if (is<UsageError>(error) || is<output::NotStored>(error)) return usage;
   if (is<cases::CaseError>(error)) return case_invalid;
   if (is<lbm::geometry::StlFileError>(error)) return input_output;
   if (is<lbm::geometry::GeometryError>(error) || is<lbm::geometry::StlError>(error)) return geometry_invalid;

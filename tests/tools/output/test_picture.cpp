@@ -186,7 +186,7 @@ TEST(Render, PicturesHaveManyColours) {
   const WallFrame walls = synthetic_walls();
   EXPECT_GT(colours_in(geometry_picture(walls, {"x", {}}, {}, 800, 500)), 100u);
   EXPECT_GT(colours_in(carriers_picture(walls, synthetic_carriers(0.12), {"x", 0.12}, 2.0, {}, 800, 500)), 500u);
-  EXPECT_GT(colours_in(slice_picture(synthetic_field(0.1), walls, 2, 2e-3, {"x", 0.1}, {}, 800, 500)), 100u);
+  EXPECT_GT(colours_in(slice_picture(synthetic_field(0.1), walls, "speed", 2, 2e-3, {"x", 0.1}, {}, 800, 500)), 100u);
   EXPECT_GT(colours_in(wall_map_picture(walls, "fines", {"x", 0.1}, {}, 800, 500)), 500u);
 }
 

@@ -60,7 +60,25 @@ double paint_walls(const Scene& scene, const WallFrame& walls, const Aim& aim, c
   return above.scale;
 }
 
+const std::vector<double>& values_of(const WallFrame& walls, const std::string& quantity) {
+  if (quantity == "fines" && !walls.fines.empty()) return walls.fines;
+  if (quantity == "hits" && !walls.hits.empty()) return walls.hits;
+  if (quantity == "energy" && !walls.energy.empty()) return walls.energy;
+  for (const auto& [name, map] : walls.further_fines)
+    if (quantity == "fines_" + name && !map.empty()) return map;
+  throw std::invalid_argument("this wall map holds no " + quantity);
+}
+
 }  // namespace
+
+std::vector<std::string> wall_quantities(const WallFrame& walls) {
+  std::vector<std::string> names;
+  if (!walls.fines.empty()) names.emplace_back("fines");
+  for (const auto& [name, map] : walls.further_fines) names.push_back("fines_" + name);
+  if (!walls.hits.empty()) names.emplace_back("hits");
+  if (!walls.energy.empty()) names.emplace_back("energy");
+  return names;
+}
 
 double speed_scale(const CarrierFrame& carriers) {
   float fastest = 0;
@@ -135,73 +153,10 @@ Canvas carriers_picture(const WallFrame& walls, const CarrierFrame& carriers, co
   return canvas;
 }
 
-Canvas slice_picture(const FieldFrame& field, const WallFrame& walls, int axis, double at, const Caption& caption,
-                     std::optional<double> speed_max, int width, int height) {
-  if (field.velocity.empty()) throw std::invalid_argument("this output holds no velocity");
-  const int across = axis == 0 ? 1 : 0, upward = axis == 2 ? 1 : 2;  // axes of the picture
-  const int nx = field.size[across], ny = field.size[upward];
-  const int layer =
-      std::clamp(static_cast<int>(std::lround((at - field.origin[axis]) / field.dx)), 0, field.size[axis] - 1);
-  std::vector<float> speed(static_cast<std::size_t>(nx) * ny, -1.0f);  // -1: not fluid
-  float fastest = 0;
-  for (int j = 0; j < ny; ++j) {
-    for (int i = 0; i < nx; ++i) {
-      std::array<std::int64_t, 3> cell{};
-      cell[axis] = layer, cell[across] = i, cell[upward] = j;
-      const std::int64_t index = cell[0] + field.size[0] * (cell[1] + field.size[1] * cell[2]);
-      if (!field.fluid[index]) continue;
-      const float value =
-          speed_of({field.velocity[3 * index], field.velocity[3 * index + 1], field.velocity[3 * index + 2]});
-      speed[static_cast<std::size_t>(j) * nx + i] = value;
-      fastest = std::max(fastest, value);
-    }
-  }
-  Canvas canvas(width, height);
-  const ColourScale scale{0.0, speed_max.value_or(scale_end(fastest)), false};
-  const Box view = stage(width, height, 150);
-  const double zoom = std::min(view.width / (nx * field.dx), view.height / (ny * field.dx));  // [pixel/m]
-  const double x0 = view.x + 0.5 * (view.width - zoom * nx * field.dx);
-  const double y0 = view.y + 0.5 * (view.height + zoom * ny * field.dx);
-  const double low_x = field.origin[across] - 0.5 * field.dx, low_y = field.origin[upward] - 0.5 * field.dx;
-  // Smooth between the cells; cells that are not fluid do not count. A pixel belongs to the cell it lies in.
-  for (int py = static_cast<int>(y0 - zoom * ny * field.dx); py < y0; ++py) {
-    for (int px = static_cast<int>(x0); px < x0 + zoom * nx * field.dx; ++px) {
-      const double u = (px + 0.5 - x0) / (zoom * field.dx), v = (y0 - py - 0.5) / (zoom * field.dx);  // in cells
-      const int ci = static_cast<int>(std::floor(u)), cj = static_cast<int>(std::floor(v));
-      if (ci < 0 || cj < 0 || ci >= nx || cj >= ny || speed[static_cast<std::size_t>(cj) * nx + ci] < 0) continue;
-      const int i = static_cast<int>(std::floor(u - 0.5)), j = static_cast<int>(std::floor(v - 0.5));
-      double sum = 0, weights = 0;
-      for (int corner = 0; corner < 4; ++corner) {
-        const int a = i + (corner & 1), b = j + (corner >> 1);
-        if (a < 0 || b < 0 || a >= nx || b >= ny || speed[static_cast<std::size_t>(b) * nx + a] < 0) continue;
-        const double weight = (1 - std::abs(u - 0.5 - a)) * (1 - std::abs(v - 0.5 - b));
-        sum += weight * speed[static_cast<std::size_t>(b) * nx + a];
-        weights += weight;
-      }
-      if (weights > 0) canvas.blend(px, py, scale.colour(sum / weights), 1.0f);
-    }
-  }
-  const double place = field.origin[axis] + layer * field.dx;
-  std::vector<Canvas::Segment> outline;
-  for (const auto& [a, b] : cut_of(walls, axis, place)) {
-    outline.push_back({x0 + zoom * (a[across] - low_x), y0 - zoom * (a[upward] - low_y),
-                       x0 + zoom * (b[across] - low_x), y0 - zoom * (b[upward] - low_y)});
-  }
-  canvas.stroke(outline, ink, 2.0);
-  const std::string plane = std::string(1, "xyz"[axis]) + formatted(" = %.3g mm", place * 1e3);
-  draw_title(canvas, "Speed of the air at " + plane, subtitle(caption));
-  draw_colour_bar(canvas, colour_bar_place(width, height), scale, "speed of the air [m/s]");
-  draw_scale_bar(canvas, 60, height - 45, zoom);
-  return canvas;
-}
-
 Canvas wall_map_picture(const WallFrame& walls, const std::string& quantity, const Caption& caption, const Aim& aim,
                         int width, int height) {
   const bool hits = quantity == "hits", energy = quantity == "energy";
-  if (!hits && !energy && quantity != "fines")
-    throw std::invalid_argument("no wall quantity '" + quantity + "'; there are fines, hits and energy");
-  const std::vector<double>& values = hits ? walls.hits : energy ? walls.energy : walls.fines;
-  if (values.empty()) throw std::invalid_argument("this wall map holds no " + quantity);
+  const std::vector<double>& values = values_of(walls, quantity);
   // Hits and energies are sums of a triangle; over its area they can be compared between small and large ones.
   std::vector<double> per_area(values.size());
   double largest = 0;
@@ -209,7 +164,7 @@ Canvas wall_map_picture(const WallFrame& walls, const std::string& quantity, con
     const auto& [a, b, c] = walls.triangles[t];
     const Vec3 p = point_of(walls.vertices[a]), q = point_of(walls.vertices[b]), r = point_of(walls.vertices[c]);
     const double area = 0.5 * (q - p).cross(r - p).norm();
-    per_area[t] = quantity == "fines" ? values[t] : area > 0 ? values[t] / area : 0.0;
+    per_area[t] = !hits && !energy ? values[t] : area > 0 ? values[t] / area : 0.0;
     largest = std::max(largest, per_area[t]);
   }
   const double highest = largest > 0 ? std::pow(10.0, std::ceil(std::log10(largest) - 1e-9)) : 1.0;
@@ -226,9 +181,10 @@ Canvas wall_map_picture(const WallFrame& walls, const std::string& quantity, con
   Canvas canvas(width, height);
   const Box whole = stage(width, height, 170);
   const double pixels_a_metre = paint_walls(scene, walls, aim, whole, canvas);
-  const std::string title = hits     ? "Impacts of carriers on the walls"
-                            : energy ? "Energy of the impacts on the walls"
-                                     : "Fines on the walls";
+  std::string title = hits     ? "Impacts of carriers on the walls"
+                      : energy ? "Energy of the impacts on the walls"
+                               : "Fines on the walls";
+  if (quantity.starts_with("fines_")) title.append(", ").append(quantity, 6);
   const std::string unit = hits     ? "impacts per area [1/m^2]"
                            : energy ? "energy per area [J/m^2]"
                                     : "fines per area [1/m^2]";

@@ -27,20 +27,27 @@ Canvas geometry_picture(const WallFrame& walls, const Caption& caption, const Ai
 Canvas carriers_picture(const WallFrame& walls, const CarrierFrame& carriers, const Caption& caption, double speed_max,
                         const Aim& aim, int width, int height);
 
-/// Speed of the air on the layer of cells nearest to `at` [m] along `axis` (0 x, 1 y, 2 z), with the walls' outline.
-/// Throws std::invalid_argument if the frame has no velocity.
-Canvas slice_picture(const FieldFrame& field, const WallFrame& walls, int axis, double at, const Caption& caption,
-                     std::optional<double> speed_max, int width, int height);
+/// A quantity of the air (one of `slice_quantities`) on the layer of cells nearest to `at` [m] along `axis` (0 x, 1 y,
+/// 2 z), with the walls' outline. Fines are logarithmic. `maximum` ends the scale, in the quantity's own unit.
+/// Throws std::invalid_argument if the frame has no such array.
+Canvas slice_picture(const FieldFrame& field, const WallFrame& walls, const std::string& quantity, int axis, double at,
+                     const Caption& caption, std::optional<double> maximum, int width, int height);
+
+/// Those that a frame holds: speed, pressure, fines (of the first scalar), fines_NAME.
+std::vector<std::string> slice_quantities(const FieldFrame& field);
 
 /// Clear walls and streamlines of the air coloured by speed, evenly spread on the picture.
 /// Throws std::invalid_argument if the frame has no velocity, or there is no patch to close up on.
 Canvas streamlines_picture(const FieldFrame& field, const WallFrame& walls, const Caption& caption,
                            std::optional<double> speed_max, const Aim& aim, int width, int height);
 
-/// A wall quantity ("fines", "hits" or "energy") on the triangles, logarithmic: from above and from below, or as `aim`
+/// A wall quantity (one of `wall_quantities`) on the triangles, logarithmic: from above and from below, or as `aim`
 /// says. Throws std::invalid_argument if the frame has no such array.
 Canvas wall_map_picture(const WallFrame& walls, const std::string& quantity, const Caption& caption, const Aim& aim,
                         int width, int height);
+
+/// Those that a frame holds: fines (of the first scalar), fines_NAME of a further one, hits, energy.
+std::vector<std::string> wall_quantities(const WallFrame& walls);
 
 /// The largest speed in a frame [m/s], rounded up for a scale.
 double speed_scale(const CarrierFrame& carriers);

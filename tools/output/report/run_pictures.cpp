@@ -127,7 +127,7 @@ RunPicture wall_map_picture_of_run(const std::string& quantity) {
                "On the triangles of the device's own surface, seen from outside; logarithmic.",
                {}};
   if (quantity == "hits") p.caption = "Impacts of carriers per area.";
-  p.options.wall_quantity = quantity;
+  p.options.quantity = quantity;
   return p;
 }
 
