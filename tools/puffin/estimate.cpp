@@ -25,8 +25,10 @@ int estimate(const CaseArguments& a) {
                         " are free: raise numerics.dx");
   const Rehearsal rehearsal = rehearse(c, rehearsed_seconds);
   assessment.memory = rehearsal.memory;
-  const bool counted = assessment.lattice && c.air.model == cases::AirModel::lbm;  // the steps of the ramp
-  const double rehearsals = rehearsal.time > 0.0 ? c.stop.time / rehearsal.time : 0.0;
+  const bool counted =  // the steps of the ramp
+      !rehearsal.ended && assessment.lattice && c.air.model == cases::AirModel::lbm;
+  // How often the rehearsal makes up the run.
+  const double rehearsals = rehearsal.ended ? 1.0 : rehearsal.time > 0.0 ? c.stop.time / rehearsal.time : 0.0;
   const double units = counted ? assessment.lattice->steps : rehearsal.units * rehearsals;
   const double steps = counted ? units : static_cast<double>(rehearsal.steps) * rehearsals;
   const Forecast f = forecast(c, rehearsal, units);
@@ -48,7 +50,12 @@ int estimate(const CaseArguments& a) {
   if (mlups > 0.0)
     print("speed      " + four_digits(mlups) + " million fluid cells a second on " + std::to_string(rehearsal.threads) +
           " threads (air and walls, rehearsed now: " + std::to_string(rehearsal.steps) + " steps)");
-  print("time       about " + as_time(f.seconds) + " to stop.time (" + as_time(f.low) + " to " + as_time(f.high) + ")");
+  const bool early = rehearsal.ended && rehearsal.time < c.stop.time;
+  if (early)
+    print("end        when all has left: in the rehearsal after " + std::to_string(rehearsal.steps) + " steps, at " +
+          as_time(rehearsal.time));
+  print("time       about " + as_time(f.seconds) + (early ? " to that (" : " to stop.time (") + as_time(f.low) +
+        " to " + as_time(f.high) + ")");
   return ok;
 }
 

@@ -99,13 +99,15 @@ Rehearsal rehearse(const cases::Case& c, double seconds) {
   Stepping stepping(s, folder, true, begin, seconds + seconds_since(begin), c.stop.time);
   r.set_up = seconds_since(begin);
   const Clock::time_point start = Clock::now();
-  stepping.run();
+  const Ending ending = stepping.run();
   const double gone = seconds_since(start);
   const double stepped_output = stepping.output_seconds();
   // The end of a run takes memory of its own: events.h5, wall maps. Said to be stopped, as nothing is to be warned of.
   const Clock::time_point last = Clock::now();
   stepping.finish({"stopped", "", stopped});
   r.finish = seconds_since(last);
+  r.ended = ending.code == ok;
+  r.run_seconds = seconds_since(begin);
   const auto& e = s.state.effort;
   r.time = s.state.time;
   r.steps = coupling::computes_air(s.models, s.state) ? s.state.air->steps : s.state.carriers.statistics.steps;
@@ -128,6 +130,7 @@ Rehearsal rehearse(const cases::Case& c, double seconds) {
 }
 
 Forecast forecast(const cases::Case& c, const Rehearsal& r, double steps) {
+  if (r.ended) return {r.run_seconds, 0.75 * r.run_seconds, 1.25 * r.run_seconds};
   const double always = r.set_up + r.outputs + r.finish + steps * (r.air + r.rest);
   const double busy = steps * (r.carriers + r.transport);
   Forecast f;

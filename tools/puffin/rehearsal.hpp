@@ -24,6 +24,8 @@ struct Rehearsal {
   std::int64_t steps = 0;   // that were rehearsed
   double units = 0.0;       // the same, but 1 where frozen air carries fines alone: all that was rehearsed
   int threads = 0;
+  bool ended = false;  // the rehearsal came to the run's own end: `run_seconds` is what the run takes
+  double run_seconds = 0.0;
 };
 
 /// Builds the case and runs it for about `seconds` with all its outputs, in a folder of its own that is removed, to the
@@ -34,7 +36,7 @@ Rehearsal rehearse(const cases::Case& c, double seconds);
 
 /// What the run will take to stop.time [s], and between what: if everything leaves before (stop.when_empty) and the
 /// machine is a quarter faster; with carriers and fines at work from the first step on and a quarter slower.
-/// Checkpoints are not counted.
+/// Checkpoints are not counted. Of a rehearsal that came to the run's end it is what that took, a quarter up and down.
 struct Forecast {
   double seconds = 0.0, low = 0.0, high = 0.0;
 };

@@ -32,6 +32,38 @@ TEST_F(Estimate, MemoryIsThatOfTheRun) {
   EXPECT_TRUE(std::filesystem::is_empty(folder_ / "tmp"));  // nothing is left of the rehearsal
 }
 
+// A sphere without fines leaves a duct after 0.01 ms of 1000 s, and with it all that the run is about.
+TEST_F(Estimate, ARehearsalThatComesToTheEndOfTheRunIsTheAnswer) {
+  std::ofstream(folder_ / "short.toml") << R"toml(
+schema = 1
+name = "short"
+geometry = { generator = "duct", duct = { length = "2 mm", width = "1 mm", height = "1 mm" } }
+numerics = { dx = "0.2 mm" }
+stop = { time = "1000 s" }
+[air]
+density = "1.204 kg/m^3"
+viscosity = "1.82e-5 Pa s"
+[[air.boundary]]
+patch = "inlet"
+type = "velocity-inlet"
+flow_rate = "1 L/min"
+[[air.boundary]]
+patch = "outlet"
+type = "pressure-outlet"
+[carriers]
+list = [{ position = [1.8e-3, 5e-4, 5e-4], velocity = [20.0, 0.0, 0.0], diameter = "70 um", density = "1520 kg/m^3" }]
+contact = { restitution = 0.6, friction = 0.3 }
+)toml";
+  const std::string program = "cd " + folder_.string() + " && " + PUFFIN_BINARY_DIR + "/puffin ";
+  ASSERT_EQ(std::system((program + "estimate short.toml --json > short.json").c_str()), 0);
+  ASSERT_EQ(std::system((program + "run short.toml --quiet --out short").c_str()), 0);
+  std::ifstream stream(folder_ / "short.json");
+  const auto said = nlohmann::json::parse(stream);
+  EXPECT_EQ(said["steps"].get<std::int64_t>(), output::read_summary(folder_ / "short/summary.json").steps);
+  EXPECT_EQ(said["steps"].get<std::int64_t>(), said["rehearsed_steps"].get<std::int64_t>());
+  EXPECT_LT(said["seconds"].get<double>(), 100.0);
+}
+
 // No air step and no carrier is there to be counted, and still the transport takes its time: what is rehearsed in 5 s
 // lasts less than 10 s of the cloud's time (400,000 steps of its 2000 cells), so 1000 s take more than 500 s.
 TEST_F(Estimate, FinesInFrozenAirAreRehearsedToo) {
