@@ -190,6 +190,17 @@ TEST(Render, PicturesHaveManyColours) {
   EXPECT_GT(colours_in(wall_map_picture(walls, "fines", {"x", 0.1}, {}, 800, 500)), 500u);
 }
 
+TEST(Render, AWallMapIsOfTheScalarThatIsAsked) {
+  WallFrame walls = synthetic_walls();
+  const auto map = [&](const std::string& quantity) {
+    return wall_map_picture(walls, quantity, {"x", 0.1}, {}, 400, 300);
+  };
+  walls.further_fines = {{"b", std::vector<double>(walls.fines.size(), 0.0)}};
+  EXPECT_LT(colours_in(map("fines_b")), colours_in(map("fines")));  // grey alone, but for the bar and the edges
+  EXPECT_EQ(wall_quantities(walls), (std::vector<std::string>{"fines", "fines_b", "hits", "energy"}));
+  EXPECT_THROW(map("fines_c"), std::invalid_argument);
+}
+
 TEST(Render, APictureClosesUpOnAPatchAndNamesThePatchesIfThereIsNone) {
   const WallFrame walls = synthetic_walls();
   const Box view{0, 0, 800, 500};
