@@ -176,9 +176,9 @@ void advance_together(std::span<Companion> all, double until) {
   const auto each = [&](auto work) {
     for (Companion& c : all) try {
         const BorrowedAir air(owner, *c.state);
-        if (c.failure.empty()) work(*c.models, *c.state);
-      } catch (const Diverged& e) {
-        c.failure = e.what();
+        if (!c.failure) work(*c.models, *c.state);
+      } catch (const std::exception&) {
+        c.failure = std::current_exception();
       }
   };
   int most = flow.steps_per_exchange_asleep;
@@ -192,7 +192,7 @@ void advance_together(std::span<Companion> all, double until) {
   step_air(flow, interval.steps, interval.rescale, all.subspan(1), owner);
   each([&](const Models& m, State& s) { follow_air(m, interval, until, s); });
   for (const Companion& c : all)
-    if (!c.failure.empty()) c.state->time = end;
+    if (c.failure) c.state->time = end;
 }
 
 }  // namespace puffin::coupling

@@ -1,8 +1,8 @@
 #pragma once
 // One flow for several populations of carriers that do not act on it.
 
+#include <exception>
 #include <span>
-#include <string>
 
 #include "coupling/state.hpp"
 
@@ -12,7 +12,7 @@ namespace puffin::coupling {
 struct Companion {
   const Models* models = nullptr;
   State* state = nullptr;
-  std::string failure{};  // why it cannot go on: its carriers or fines diverged. The others can.
+  std::exception_ptr failure{};  // why it cannot go on, Diverged or another; the others can
 };
 
 /// While it lives, `borrower` holds the air of `owner` and what drives it: to step it, to write it, to look at it.
@@ -31,7 +31,7 @@ class BorrowedAir {
 /// As `advance` for each, with the air computed once. All must be at the same time on the same cells, with the same
 /// air, boundaries and time step, and none two-way. The interval is that of the most restless population: a carrier
 /// that sleeps is asked oftener than it would be alone, which changes nothing of its physics. Throws Diverged if the
-/// air does; a population that does says so in `failure`, and is at the end of the interval with no meaning.
+/// air does. What a population throws is its `failure`, and it is at the end of the interval with no meaning.
 void advance_together(std::span<Companion> all, double until);
 
 }  // namespace puffin::coupling

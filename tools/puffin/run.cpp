@@ -9,17 +9,15 @@
 #include <chrono>
 #include <thread>
 
-#include "cases/case_error.hpp"
 #include "cases/check_places.hpp"
 #include "cases/write_case.hpp"
 #include "tools/output/render.hpp"
 #include "tools/output/report.hpp"
-#include "tools/puffin/available_memory.hpp"
 #include "tools/puffin/console.hpp"
 #include "tools/puffin/exit_codes.hpp"
+#include "tools/puffin/opening.hpp"
 #include "tools/puffin/sampling.hpp"
 #include "tools/puffin/stepping.hpp"
-#include "tools/puffin/stored_field.hpp"
 #include "tools/puffin/summarize.hpp"
 #include "tools/puffin/thread_limit.hpp"
 
@@ -37,17 +35,10 @@ void make_pictures_and_report(const std::filesystem::path& run, bool quiet) {
   }
 }
 
-/// What the parts find wrong with their numbers is a mistake of the case.
-std::unique_ptr<cases::Simulation> built(const cases::Case& c, const RunOptions& options) try {
-  return cases::build(c, read_stored_field, available_memory(), options.beds);
-} catch (const std::invalid_argument& e) {
-  throw cases::CaseError({{options.case_file.string(), 0, 0, "", e.what()}});
-}
-
 /// The run on the threads of the arena that it is called in.
 int run_here(const RunOptions& options, cases::Case c, int threads, std::chrono::steady_clock::time_point start) {
   const auto seconds = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
-  const auto simulation = built(c, options);
+  const auto simulation = built(c, options.case_file, options.beds);
   cases::Simulation& s = *simulation;
   // Only now: the reference speed, and with it the time step, belong to the whole run that the case describes.
   c.stop.time = std::min(c.stop.time, options.until);

@@ -10,6 +10,8 @@
 #include "tools/puffin/batch/pool.hpp"
 #include "tools/puffin/batch/slurm.hpp"
 #include "tools/puffin/console.hpp"
+#include "tools/puffin/exit_codes.hpp"
+#include "tools/puffin/together.hpp"
 
 namespace puffin::tools {
 namespace {
@@ -42,6 +44,7 @@ std::vector<std::string> run_arguments(const std::vector<std::size_t>& group, in
   const Job& job = plan.jobs[first];
   const bool together = group.size() > 1;
   std::vector<std::string> arguments;
+  if (!job.flow.empty()) std::filesystem::remove(ends_file(book.flow_file(first)));  // of an earlier attempt
   if (together) {
     output::write_whole(book.flow_file(first), list_of(group, plan, book));
     arguments = {"together", book.flow_file(first).string()};
@@ -56,6 +59,25 @@ std::vector<std::string> run_arguments(const std::vector<std::size_t>& group, in
     arguments.insert(arguments.end(), {"--beds", (book.folder() / "shared" / "beds").string()});
   if (!together && book.resumable(first)) arguments.emplace_back("--resume");
   return arguments;
+}
+
+int own_code(std::size_t job, std::size_t starter, int code, const Jobs& plan, const Book& book) {
+  if (plan.jobs[job].flow.empty()) return code;
+  std::string message;
+  const auto ends = read_ends(book.flow_file(job));
+  const auto own =
+      std::find_if(ends.begin(), ends.end(), [&](const TogetherEnd& end) { return end.out == book.run_folder(job); });
+  if (own != ends.end()) {
+    code = own->code;
+    message = own->message;
+  } else if (book.finished(job)) {
+    code = ok;
+  } else if (job != starter && code != stopped &&
+             code != interrupted) {  // the process came to grief before it could tell
+    message = last_line(book.log_file(starter));
+  }
+  if (code != ok && !message.empty()) std::ofstream(book.log_file(job), std::ios::app) << message << "\n";
+  return code;
 }
 
 bool complete(std::size_t job, const cases::Study& study, const Jobs& plan, const Book& book) {

@@ -89,7 +89,7 @@ class Batch {
         for (const std::size_t n : group_of(change.job)) {
           JobRecord& r = book_.record(n);
           if (change.ended) {
-            ended(n, plan_.jobs[n].flow.empty() || !book_.finished(n) ? change.exit_code : ok);
+            ended(n, own_code(n, change.job, change.exit_code, plan_, book_));
           } else if (r.state != JobState::running) {
             r.state = JobState::running;
             ++r.attempts;
@@ -190,9 +190,10 @@ class Batch {
         continue;
       }
       const std::vector<std::size_t> group = running_[k].group;
+      const std::size_t starter = running_[k].job;
       for (const std::size_t n : group) book_.record(n).seconds = seconds_since(running_[k].start);
       running_.erase(running_.begin() + static_cast<std::ptrdiff_t>(k));
-      for (const std::size_t n : group) ended(n, group.size() > 1 && book_.finished(n) ? ok : *code);
+      for (const std::size_t n : group) ended(n, own_code(n, starter, *code, plan_, book_));
       book_.write();
     }
   }

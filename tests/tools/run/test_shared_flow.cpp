@@ -1,0 +1,83 @@
+// Cases that share a flow end each for itself.
+
+#include "tests/tools/run/batch_study.hpp"
+#include "tools/output/study_results.hpp"
+#include "tools/output/summary.hpp"
+
+namespace {
+
+using namespace puffin;
+using namespace puffin::test;
+
+/// One carrier of 70 um, 5 um over the floor of a duct and 1 m/s towards it: nothing else acts on it.
+constexpr const char* towards_the_floor = R"toml(
+schema = 1
+name = "towards-the-floor"
+[geometry]
+generator = "duct"
+[geometry.duct]
+length = "6 mm"
+width = "2 mm"
+height = "2 mm"
+[air]
+[[air.boundary]]
+patch = "inlet"
+type = "velocity-inlet"
+flow_rate = "1 L/min"
+[[air.boundary]]
+patch = "outlet"
+type = "pressure-outlet"
+[numerics]
+dx = "0.25 mm"
+time_step = "5 us"
+[carriers]
+drag = "none"
+gravity = [0.0, 0.0, 0.0]
+[[carriers.list]]
+position = [3e-3, 1e-3, 4e-5]
+velocity = [0.0, 0.0, -1.0]
+spin = [0.0, 0.0, 0.0]
+diameter = "70 um"
+density = 1520
+[carriers.contact]
+model = "hertz"
+restitution = 0.6
+friction = 0.3
+poisson = 0.3
+youngs_modulus = "1 GPa"
+[stop]
+time = "0.1 ms"
+[output]
+carriers = "0.1 ms"
+)toml";
+
+// Of the two that fail the one would own the air, as it runs the longest, and the other owns it and ends on the way: a
+// carrier of 18.8 kPa goes in by more than 0.3 diameters (test_run_health.cpp).
+TEST_F(BatchStudy, OfASharedFlowAFailedCaseFailsAloneWithItsOwnCodeAndMessage) {
+  file("case.toml", towards_the_floor);
+  file(
+      "study.toml",
+      "base = \"case.toml\"\nshare = [\"one-way-flow\"]\n[[case]]\nname = \"outside\"\nset = { "
+      "\"carriers.list[0].position\" = [0.1, 0.0, 0.0], \"stop.time\" = \"0.4 ms\" }\n[[case]]\nname = \"soft\"\nset "
+      "= { \"carriers.contact.youngs_modulus\" = \"18.8 kPa\", \"stop.time\" = \"0.3 ms\" }\n[[case]]\nname = \"b\"\n");
+  EXPECT_EQ(batch("--jobs 1 --threads 1"), 8) << text("log.txt");
+  const output::StudyResults results = output::read_study_results(folder_ / "out");
+  ASSERT_EQ(results.cases.size(), 3U);
+  const auto& outside = results.cases[0].runs[0];
+  EXPECT_EQ(outside.exit_code, 3);
+  EXPECT_NE(outside.message.find("outside the geometry"), std::string::npos) << outside.message;
+  const auto& soft = results.cases[1].runs[0];
+  EXPECT_EQ(soft.exit_code, 5);
+  EXPECT_NE(soft.message.find("of its diameter"), std::string::npos) << soft.message;
+  EXPECT_NE(text("out/soft/seed-1/run.log").find(soft.message), std::string::npos) << "its own log says why";
+  EXPECT_EQ(output::read_status(folder_ / "out/soft/seed-1/status.json").state, "diverged");
+  const fs::path run = folder_ / "out/b/seed-1";
+  ASSERT_TRUE(fs::exists(run / "summary.json")) << text("log.txt");
+  EXPECT_EQ(output::read_summary(run / "summary.json").state, "finished");
+  EXPECT_EQ(output::read_status(run / "status.json").state, "finished");
+
+  EXPECT_EQ(batch(""), 8);
+  EXPECT_NE(text("log.txt").find("outside/seed-1 failed before (--set carriers.list[0].position"), std::string::npos);
+}
+
+}  // namespace
