@@ -158,10 +158,16 @@ void advance(const Models& models, double until, State& s) {
   follow_air(models, interval, until, s);
 }
 
+/// The air, what drives it, and what is booked of it and of its steps.
 static void exchange_air(State& a, State& b) {
   if (&a == &b) return;
   std::swap(a.air, b.air);
   std::swap(a.drive, b.drive);
+  std::swap(a.air_mass, b.air_mass);
+  std::swap(a.extremes, b.extremes);
+  std::swap(a.effort.air, b.effort.air);
+  std::swap(a.effort.links, b.effort.links);
+  std::swap(a.effort.steps_at_reference_dt, b.effort.steps_at_reference_dt);
 }
 
 BorrowedAir::BorrowedAir(State& owner, State& borrower) : owner_(owner), borrower_(borrower) {

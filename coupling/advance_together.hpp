@@ -15,7 +15,8 @@ struct Companion {
   std::exception_ptr failure{};  // why it cannot go on, Diverged or another; the others can
 };
 
-/// While it lives, `borrower` holds the air of `owner` and what drives it: to step it, to write it, to look at it.
+/// While it lives, `borrower` holds the air of `owner`, what drives it and what is booked of it: to step it, to write
+/// it, to look at it.
 class BorrowedAir {
  public:
   BorrowedAir(State& owner, State& borrower);

@@ -18,6 +18,7 @@
 #include "tools/puffin/console.hpp"
 #include "tools/puffin/exit_codes.hpp"
 #include "tools/puffin/finished.hpp"
+#include "tools/puffin/lattice_limits.hpp"
 #include "tools/puffin/opening.hpp"
 #include "tools/puffin/progress.hpp"
 #include "tools/puffin/summarize.hpp"
@@ -113,16 +114,22 @@ class Company {
     Population p;
     p.out = given.out;
     p.simulation = built(c, given.case_file, options_.beds);
+    const std::vector<std::string> warnings = first_warnings(*p.simulation);
     p.folder = std::make_unique<output::OutputFolder>(given.out, c.name);
     announce(*p.folder, c);
+    const LogToFile log(p.folder->file("log.txt"));
+    for (const std::string& text : warnings) log_warning(c.name + ": " + text);
     p.folder->write_text("case.toml", cases::write_resolved(c));
     p.health = std::make_unique<coupling::Health>(p.simulation->models, p.state());
     p.recorder = std::make_unique<Recorder>(*p.simulation, *p.folder);
     p.progress = std::make_unique<Progress>(*p.simulation, *p.folder, options_.quiet || !all_.empty());
+    log_beginning(*p.simulation, options_.threads, p.folder->path());
     if (!all_.empty()) {  // the first one's air is everybody's; it lacks what only fines need if that one has none
       auto& corners = all_.front().state().air->links.corner_images;
       if (corners.empty()) corners = std::move(p.state().air->links.corner_images);
       p.state().air.reset();
+      p.simulation->lattice_speed = all_.front().simulation->lattice_speed;
+      log_info("its air is that of " + all_.front().name());
     }
     p.set_up = seconds_since(begin);
     all_.push_back(std::move(p));
@@ -170,7 +177,7 @@ class Company {
   static bool look_after(Population& p) {
     p.recorder->take_events(*p.simulation);
     p.recorder->record(*p.simulation);
-    p.progress->update(*p.recorder, {}, false);
+    p.progress->update(*p.recorder, p.simulation->warnings, false);
     const std::int64_t steps = p.state().air->steps, next = p.simulation->models.steps_per_exchange_asleep;
     if (coupling::check_due(steps - p.checked, next)) {
       p.health->check(p.simulation->models, p.state());
@@ -188,17 +195,19 @@ class Company {
   void end(Population& p, const std::string& state, int code, std::string message) {
     p.ended = true;
     try {
+      const LogToFile log(p.folder->file("log.txt"));
+      if (!message.empty()) log_error(p.name() + ": " + message);
       if (state == "failed")
         set_state(p, state);
       else
         with_air(p, [&] { write_end(p, state, message); });
     } catch (const std::exception& e) {
       if (code == ok) code = exit_code(e), message = e.what();
+      log_error(p.name() + ": " + e.what());
     }
     p.state().carriers = {};
     p.state().scalars = {};
     if (state == "stopped") return;
-    if (!message.empty()) log_error(p.name() + ": " + message);
     book({p.out, code, message});
   }
 
@@ -210,9 +219,15 @@ class Company {
   }
 
   void write_end(Population& p, const std::string& state, const std::string& message) {
+    auto& warnings = p.simulation->warnings;
+    if (state == "finished")
+      for (const std::string& text : lattice_warnings(*p.simulation)) {
+        warnings.push_back(text);
+        log_warning(p.name() + ": " + text);
+      }
     p.recorder->finish(*p.simulation);
     if (state == "finished") p.recorder->forget_journal();
-    p.progress->update(*p.recorder, {}, true);
+    p.progress->update(*p.recorder, warnings, true);
     RunFacts facts;
     facts.state = state;
     facts.message = message;
@@ -220,7 +235,7 @@ class Company {
     facts.set_up = p.set_up;
     facts.output = p.output;
     facts.threads = options_.threads;
-    facts.warnings = p.simulation->warnings;
+    facts.warnings = warnings;
     output::Summary summary = summarize(*p.simulation, *p.recorder, facts);
     summary.assumptions.push_back("carriers: they do not act on the air, whose flow this run shares with others");
     output::write_summary(p.folder->file("summary.json"), summary);
@@ -228,6 +243,7 @@ class Company {
     if (state == "stopped") return;
     try {
       output::write_whole(p.folder->path() / "report.html", output::make_report(p.folder->path()));
+      log_info("report: " + (p.folder->path() / "report.html").string());
     } catch (const std::exception& e) {
       log_warning(std::string("no report: ") + e.what());
     }

@@ -33,6 +33,8 @@ void log_to_file(const std::filesystem::path& file) {
   }
 }
 
+LogToFile::~LogToFile() { spdlog::get("puffin")->sinks().pop_back(); }
+
 void log_info(const std::string& text) { spdlog::info("{}", text); }
 void log_warning(const std::string& text) { spdlog::warn("{}", text); }
 void log_error(const std::string& text) {  // the log says "error" itself

@@ -12,6 +12,15 @@ void set_up_log(bool quiet);
 /// From now on the log also goes to this file, whatever is shown; an existing file is continued.
 void log_to_file(const std::filesystem::path& file);
 
+/// The same while it lives, for one of several runs in a process.
+class LogToFile {
+ public:
+  explicit LogToFile(const std::filesystem::path& file) { log_to_file(file); }
+  ~LogToFile();
+  LogToFile(const LogToFile&) = delete;
+  LogToFile& operator=(const LogToFile&) = delete;
+};
+
 void log_info(const std::string& text);
 void log_warning(const std::string& text);
 void log_error(const std::string& text);

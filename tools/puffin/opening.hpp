@@ -3,6 +3,8 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "cases/build.hpp"
 
@@ -12,5 +14,11 @@ namespace puffin::tools {
 /// beds: as of RunOptions. Throws cases::CaseError, cases::TooLarge.
 std::unique_ptr<cases::Simulation> built(const cases::Case& c, const std::filesystem::path& case_file,
                                          const std::filesystem::path& beds);
+
+/// Of places in vain, and of what the run does otherwise than described. Throws as PointReader::check_places.
+std::vector<std::string> first_warnings(const cases::Simulation& s);
+
+/// The run's first line, and where its dose comes from.
+void log_beginning(const cases::Simulation& s, int threads, const std::filesystem::path& out);
 
 }  // namespace puffin::tools

@@ -9,14 +9,12 @@
 #include <chrono>
 #include <thread>
 
-#include "cases/check_places.hpp"
 #include "cases/write_case.hpp"
 #include "tools/output/render.hpp"
 #include "tools/output/report.hpp"
 #include "tools/puffin/console.hpp"
 #include "tools/puffin/exit_codes.hpp"
 #include "tools/puffin/opening.hpp"
-#include "tools/puffin/sampling.hpp"
 #include "tools/puffin/stepping.hpp"
 #include "tools/puffin/summarize.hpp"
 #include "tools/puffin/thread_limit.hpp"
@@ -42,9 +40,7 @@ int run_here(const RunOptions& options, cases::Case c, int threads, std::chrono:
   cases::Simulation& s = *simulation;
   // Only now: the reference speed, and with it the time step, belong to the whole run that the case describes.
   c.stop.time = std::min(c.stop.time, options.until);
-  for (const std::string& text : PointReader(s).check_places(s)) log_warning(text);
-  for (const std::string& text : cases::carrier_place_warnings(s.description, *s.tree)) log_warning(text);
-  for (const std::string& text : s.warnings) log_warning(text);
+  for (const std::string& text : first_warnings(s)) log_warning(text);
   const auto out = options.out.empty() ? std::nullopt : std::optional(options.out);
   const output::OutputFolder folder(out, c.name, options.resume);
   announce(folder, c);
@@ -52,11 +48,7 @@ int run_here(const RunOptions& options, cases::Case c, int threads, std::chrono:
   if (options.resume && !folder.resumed())
     log_warning(folder.path().string() + " was killed before its first checkpoint: the run begins anew");
   folder.write_text("case.toml", cases::write_resolved(c));
-  if (s.state.air)
-    log_info(c.name + ": " + std::to_string(s.state.air->rows.active_cells()) + " cells of " + as_length(s.dx) + ", " +
-             std::to_string(threads) + " threads, " + lbm::name(lbm::detect_isa()) + "; output in " +
-             folder.path().string());
-  if (s.bed_was_kept) log_info("the dose lies as an earlier run with the same one has left it in " + s.beds.string());
+  log_beginning(s, threads, folder.path());
   RunFacts facts;
   facts.threads = threads;
   facts.set_up = seconds();

@@ -203,6 +203,16 @@ TEST_F(BatchStudy, ASharedFlowGivesWhatEachOneWayCaseGivesAlone) {
       EXPECT_EQ(shared.cases[n].find(quantity)->mean, alone.cases[n].find(quantity)->mean);
     }
   EXPECT_GT(shared.cases[0].find("collisions.particle")->mean, shared.cases[1].find("collisions.particle")->mean);
+  for (const char* run : {"a/seed-1", "b/seed-1"}) {  // and each tells of the flow it rode on, owner of it or not
+    SCOPED_TRACE(run);
+    const output::Summary ours = output::read_summary(folder_ / "out" / run / "summary.json"),
+                          own = output::read_summary(folder_ / "alone" / run / "summary.json");
+    EXPECT_EQ(ours.dt_min, own.dt_min);
+    EXPECT_EQ(ours.dt_max, own.dt_max);
+    EXPECT_EQ(ours.tau_min, own.tau_min);
+    EXPECT_EQ(ours.mach_max, own.mach_max);
+    EXPECT_GT(ours.mlups, 0.0);
+  }
 }
 
 TEST_F(BatchStudy, OfASharedFlowOnlyWhatIsNotFinishedIsRunAgain) {

@@ -80,4 +80,25 @@ TEST_F(BatchStudy, OfASharedFlowAFailedCaseFailsAloneWithItsOwnCodeAndMessage) {
   EXPECT_NE(text("log.txt").find("outside/seed-1 failed before (--set carriers.list[0].position"), std::string::npos);
 }
 
+// Air so viscous that tau is 1.1 and the density differs: both are said at the end of a run, of the owner of the air
+// and of those that ride on it.
+TEST_F(BatchStudy, OfASharedFlowEachCaseWarnsAsAloneAndHasItsLog) {
+  file("case.toml", towards_the_floor);
+  const std::string cases =
+      "base = \"case.toml\"\n[sweep]\nmethod = \"list\"\n[sweep.range]\n\"stop.time\" = [\"0.2 ms\", \"0.1 ms\"]\n"
+      "\"carriers.two_way\" = [false, false]\n\"air.viscosity\" = [3e-3, 3e-3]\n\"air.density\" = [1.2, 1.2]\n";
+  file("study.toml", "share = [\"one-way-flow\"]\n" + cases);
+  ASSERT_EQ(batch(""), 0) << text("log.txt");
+  file("study.toml", cases);
+  ASSERT_EQ(shell(std::string(PUFFIN_BINARY_DIR) + "/puffin batch study.toml --out alone > /dev/null 2> log.txt"), 0);
+  for (const std::string run : {"towards-the-floor-1/seed-1", "towards-the-floor-2/seed-1"}) {
+    SCOPED_TRACE(run);
+    const output::Summary ours = output::read_summary(folder_ / "out" / run / "summary.json");
+    EXPECT_EQ(ours.warnings, output::read_summary(folder_ / "alone" / run / "summary.json").warnings);
+    ASSERT_EQ(ours.warnings.size(), 3U) << "of the time step, the density and tau";
+    const std::string log = text("out/" + run + "/log.txt");
+    for (const std::string& warning : ours.warnings) EXPECT_NE(log.find(warning), std::string::npos) << log;
+  }
+}
+
 }  // namespace
