@@ -168,6 +168,9 @@ TEST_F(BatchStudy, ReplayedMicromodelsLeaveOnTheCarriersWhatARunOfTheirOwnLeaves
   file("study.toml", "base = \"case.toml\"\nshare = [\"micromodels\"]\n" + first + second);
   ASSERT_EQ(batch(""), 0) << text("log.txt");
   ASSERT_TRUE(fs::exists(folder_ / "out/shared/a_b/seed-1/replay-b.json")) << text("log.txt");
+  const auto run = output::read_summary(folder_ / "out/shared/a_b/seed-1/summary.json");
+  ASSERT_EQ(run.fines.size(), 1U) << "the run has computed the fines of a alone";
+  EXPECT_EQ(run.fines[0].name, "a");
   file("study.toml", "base = \"case.toml\"\n" + second);
   ASSERT_EQ(shell(std::string(PUFFIN_BINARY_DIR) + "/puffin batch study.toml --out alone > /dev/null 2> log.txt"), 0);
   const auto shared = output::read_study_results(folder_ / "out"),
@@ -178,6 +181,26 @@ TEST_F(BatchStudy, ReplayedMicromodelsLeaveOnTheCarriersWhatARunOfTheirOwnLeaves
     EXPECT_NEAR(shared.cases[1].find(quantity)->mean, alone.cases[0].find(quantity)->mean, 1e-9);
   }
   EXPECT_GT(shared.cases[0].find("FFCR")->mean, shared.cases[1].find("FFCR")->mean + 1e-3);  // the laws do differ
+}
+
+// A run names no scalar after a case whose results it does not hold: those of a and d are replayed. The fate of a's
+// airborne fines is that of b's, which are carried alike; for d's it carries one more.
+TEST_F(BatchStudy, AScalarIsNamedAfterTheCaseWhoseResultsItHolds) {
+  file("case.toml", small_dose);
+  file("strong.toml", micromodel_set(0.2));
+  const std::string laws = "\"fines.micromodels\" = \"strong.toml\"",
+                    scheme = "\"fines.scalar[0].scheme\" = \"minmod\"";
+  file("study.toml",
+       "base = \"case.toml\"\nshare = [\"scalars\", \"micromodels\"]\n[[case]]\nname = \"b\"\n"
+       "[[case]]\nname = \"a\"\nset = { " +
+           laws + " }\n[[case]]\nname = \"d\"\nset = { " + laws + ", " + scheme + " }\n");
+  ASSERT_EQ(shell(std::string(PUFFIN_BINARY_DIR) + "/puffin plan study.toml > plan.txt 2> log.txt"), 0)
+      << text("log.txt");
+  const std::string plan = text("plan.txt");
+  EXPECT_NE(plan.find("name = \"b\""), std::string::npos) << plan;
+  EXPECT_EQ(plan.find("name = \"a\""), std::string::npos) << plan;
+  EXPECT_EQ(plan.find("name = \"d\""), std::string::npos) << plan;
+  EXPECT_NE(plan.find("name = \"d-with-micromodels-of-b\""), std::string::npos) << plan;
 }
 
 // Carriers that do not act on the air feel the same air alone and beside others. While no dose rests as a whole, both

@@ -11,6 +11,7 @@
 #include "cases/case_error.hpp"
 #include "cases/choices.hpp"
 #include "cases/micromodel_file.hpp"
+#include "cases/spelling.hpp"
 #include "cases/toml_string.hpp"
 #include "cases/units.hpp"
 #include "cases/write_case.hpp"
@@ -106,7 +107,8 @@ std::string inline_scalar(const cases::Scalar& s, const std::string& name) {
          std::string(cases::name_of(s.scheme)) + "\" }";
 }
 
-/// The cases with one key as one job.
+/// The cases with one key as one job. One whose fines are replayed takes from the run where airborne fines ended: from
+/// the scalar of a case with the same diffusion and scheme, else from one whose name says whose micro-models it shows.
 Job merged(const cases::Study& study, const std::vector<Candidate>& all, const std::vector<std::size_t>& group,
            std::string_view preset) {
   Job job = all[group.front()].job;
@@ -114,16 +116,30 @@ Job merged(const cases::Study& study, const std::vector<Candidate>& all, const s
   std::string list, name;
   for (const std::size_t n : group) {
     const Candidate& c = all[n];
-    const std::string& own = study.cases[c.job.members[0].which].name;
     Member member = c.job.members[0];
-    member.scalar = own;
     if (const std::string& set = c.described->fines->micromodels;
         set != all[group.front()].described->fines->micromodels)
       member.micromodels = set;
     job.members.push_back(member);
-    list += (list.empty() ? "" : ", ") + inline_scalar(c.described->fines->scalars[0], own);
-    name += (name.empty() ? "" : "+") + own;
+    name += (name.empty() ? "" : "+") + study.cases[member.which].name;
   }
+  std::vector<std::pair<std::string, std::string>> carried;  // how, and the name of the scalar
+  for (const bool replayed : {false, true})
+    for (std::size_t k = 0; k < group.size(); ++k) {
+      Member& member = job.members[k];
+      if (member.micromodels.empty() == replayed) continue;
+      const cases::Scalar& own = all[group[k]].described->fines->scalars[0];
+      const std::string how = inline_scalar(own, "");
+      const auto like = std::find_if(carried.begin(), carried.end(), [&](const auto& c) { return c.first == how; });
+      member.scalar = study.cases[member.which].name;
+      if (replayed && like != carried.end()) {
+        member.scalar = like->second;
+        continue;
+      }
+      if (replayed) member.scalar += "-with-micromodels-of-" + study.cases[job.members[0].which].name;
+      carried.emplace_back(how, member.scalar);
+      list += (list.empty() ? "" : ", ") + inline_scalar(own, member.scalar);
+    }
   std::erase_if(job.sets, [](const cases::Override& o) { return o.key.starts_with("fines.scalar"); });
   job.sets.push_back({"fines.scalar", "[" + list + "]"});
   std::erase_if(job.sets, [](const cases::Override& o) { return o.key == "name"; });
@@ -145,9 +161,12 @@ std::string listed(const cases::Study& study, const Job& job) {
 void explain(const cases::Study& study, const std::vector<Job>& jobs, std::vector<Sharing>& sharings) {
   for (const Job& job : jobs) {
     if (job.members.size() < 2 || job.replicate != 0) continue;
-    if (study.share.scalars)
+    std::vector<std::string> scalars;
+    for (const Member& m : job.members)
+      if (std::find(scalars.begin(), scalars.end(), m.scalar) == scalars.end()) scalars.push_back(m.scalar);
+    if (scalars.size() > 1)
       sharings.push_back(
-          {"scalars", true, listed(study, job) + ": one run with a scalar each",
+          {"scalars", true, cases::join(scalars) + ": one run with a scalar each",
            "air, carriers and contacts are the same to the last bit; of the fines in the air, the number "
            "of transport steps is that of the most diffusive scalar"});
     for (const Member& m : job.members)

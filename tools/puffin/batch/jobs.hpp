@@ -9,7 +9,8 @@
 
 namespace puffin::tools {
 
-/// One case in a job, and the scalar of the run that is its own ("" where the run is the case's alone).
+/// One case in a job, and the scalar of the run that is its own, or carried like it if its fines are replayed ("" where
+/// the run is the case's alone).
 struct Member {
   std::size_t which = 0;  // index in the study
   std::string scalar;
