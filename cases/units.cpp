@@ -56,7 +56,10 @@ std::string known_units() {
     std::string& list = u.prefixable ? scaled : others;
     list += (list.empty() ? "" : ", ") + std::string(u.name);
   }
-  return scaled + ", also with a, f, p, n, u, m, c, d, h, k, M, G before them; " + others;
+  std::string small;
+  for (const Prefix& p : prefixes)
+    if (p.name.size() == 1) small += (small.empty() ? "" : ", ") + std::string(p.name);  // u stands for the two others
+  return scaled + ", also with " + small + " before them; " + others;
 }
 
 std::optional<Quantity> find_unit(std::string_view name) {

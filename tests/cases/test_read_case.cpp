@@ -72,7 +72,6 @@ TEST(ReadCase, AWrongGeneratorParameterIsReportedAtItsKey) {
   EXPECT_TRUE(any_contains(lines, "step_height")) << lines[0];
 }
 
-// gamma = H/(24 pi d0^2): 3.6e-3 J/m^2 and 0.4 nm belong to H = 4.343e-20 J.
 TEST(ReadCase, AGeneratorParameterThatCannotBeReadIsToldOnce) {
   // Not as the 0 that would stand for it, which is too small; and what else is wrong is told all the same.
   const auto lines = problems_of(sample + "[geometry.l-bend]\nduct_width = \"foo\"\nstep_height = -1.0\n");
@@ -81,6 +80,7 @@ TEST(ReadCase, AGeneratorParameterThatCannotBeReadIsToldOnce) {
   EXPECT_TRUE(any_contains(lines, "is -1; it must"));
 }
 
+// gamma = H/(24 pi d0^2): 3.6e-3 J/m^2 and 0.4 nm belong to H = 4.343e-20 J.
 TEST(ReadCase, HamakerAndSurfaceEnergyMustAgree) {
   EXPECT_NEAR(parse(sample).carriers->adhesion.hamaker, 4.343e-20, 0.001e-20);
   EXPECT_TRUE(problems_of(sample, {{"carriers.adhesion.hamaker", "'4.3e-20 J'"}}).empty());  // 1 % off, rounded

@@ -8,9 +8,11 @@
 #include <array>
 #include <cerrno>
 #include <charconv>
+#include <chrono>
 #include <cstring>
 #include <ctime>
 #include <string_view>
+#include <thread>
 
 #include "tools/output/link_out.hpp"
 #include "tools/output/output_error.hpp"
@@ -159,7 +161,7 @@ OutputFolder::OutputFolder(const std::optional<fs::path>& out, const std::string
     const fs::path plain = fs::absolute(*out).lexically_normal();  // a/../b makes no a
     make_folder(plain);
     path_ = fs::canonical(plain);
-    hold();
+    hold(resume);
     resumed_ = refuse_or_clear(path_, resume);
     return;
   }
@@ -168,26 +170,29 @@ OutputFolder::OutputFolder(const std::optional<fs::path>& out, const std::string
     std::error_code error;
     path_ = fs::canonical(parent / "latest", error);
     if (error) throw OutputError(parent.string() + " holds no run to resume; name its folder with --out");
-    hold();
+    hold(true);
     resumed_ = refuse_or_clear(path_, true);
     return;
   }
   path_ = fs::canonical(fresh_folder(parent));
-  hold();
+  hold(false);
   point_latest(path_);
 }
 
-/// Two processes in one folder would write over each other. Leaves nothing behind; on disks that know no such locks
-/// nothing is held.
-void OutputFolder::hold() {
+/// Two processes in one folder would write over each other. Leaves nothing behind.
+void OutputFolder::hold(bool patient) {
   const int descriptor = open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor < 0) return;
   lock_ = std::shared_ptr<const int>(new int(descriptor), [](const int* d) {
     close(*d);
     delete d;
   });
-  if (flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
-    throw OutputError("another run is at work in " + path_.string() + "; wait for it, or choose another with --out");
+  constexpr auto pause = std::chrono::milliseconds(100);
+  for (int tries = patient ? 200 : 1; flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;) {
+    if (--tries == 0)
+      throw OutputError("another run is at work in " + path_.string() + "; wait for it, or choose another with --out");
+    std::this_thread::sleep_for(pause);
+  }
 }
 
 fs::path OutputFolder::file(const fs::path& relative) const {

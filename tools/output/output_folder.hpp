@@ -17,7 +17,8 @@ class OutputFolder {
   /// - A folder with an unfinished run is refused if it can be resumed and `resume` is false; one that cannot is
   ///   cleared of a run's own files and used again.
   /// - A folder with files of the same names that are not from a run is refused, and so is that of a study.
-  /// - A folder in which another process runs is refused, as long as that lives.
+  /// - A folder in which another process runs is refused, as long as that lives; resume waits some seconds for one that
+  ///   may be writing its last checkpoint. On disks without flock(2), as NFS may be, nobody is kept apart.
   /// - resume: the folder must hold an unfinished run. If that was killed before its first checkpoint, the folder is
   ///   cleared of the run's own files: resumed() is then false, and the run begins anew.
   /// Throws OutputError with the remedy.
@@ -33,7 +34,7 @@ class OutputFolder {
   void write_text(const std::filesystem::path& relative, const std::string& text) const;
 
  private:
-  void hold();
+  void hold(bool patient);
 
   std::filesystem::path path_;
   std::shared_ptr<const int> lock_;  // a descriptor of the folder, locked while this object lives

@@ -1,5 +1,6 @@
 #include "tools/output/stats_file.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "tools/output/hdf5_handle.hpp"
@@ -9,6 +10,12 @@ namespace {
 
 constexpr char format[] = "puffin-stats";
 constexpr hsize_t chunk = 1024;  // rows
+
+/// HDF5 takes a '/' for a group.
+std::string dataset_name(std::string column) {
+  std::replace(column.begin(), column.end(), '/', '_');
+  return column;
+}
 
 std::vector<double> read_column(const Hdf5File& file, hid_t dataset) {
   std::vector<double> values(file.stored_length(dataset));
@@ -41,7 +48,7 @@ StatsFile::StatsFile(const std::filesystem::path& path, const std::vector<StatsC
   const Hdf5Handle group(H5Gcreate2(d.file.id(), "history", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
   d.file.good(group, "write");
   for (const auto& column : columns) {
-    d.datasets.push_back(d.file.create_growing(group, column.name, H5T_IEEE_F64LE, chunk));
+    d.datasets.push_back(d.file.create_growing(group, dataset_name(column.name), H5T_IEEE_F64LE, chunk));
     d.file.set_text(d.datasets.back(), "unit", column.unit);
   }
   d.file.flush();
@@ -88,7 +95,7 @@ std::vector<std::string> stats_names(const std::filesystem::path& path) {
 std::vector<double> read_stats(const std::filesystem::path& path, const std::string& column) {
   const Hdf5File file = Hdf5File::reading(path, format);
   const Hdf5Quiet quiet;
-  const std::string name = "history/" + column;
+  const std::string name = "history/" + dataset_name(column);
   const Hdf5Handle dataset(file.good(H5Dopen2(file.id(), name.c_str(), H5P_DEFAULT), "find " + name + " in"), H5Dclose);
   return read_column(file, dataset);
 }

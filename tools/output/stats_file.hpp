@@ -10,7 +10,7 @@
 namespace puffin::output {
 
 struct StatsColumn {
-  std::string name;
+  std::string name;  // each '/' becomes '_' in the file
   std::string unit;  // stored as the attribute `unit`
 };
 

@@ -90,7 +90,7 @@ StudyRun run_of(const Json& described, const Json& jobs, const fs::path& study) 
   const std::string replay = text(described, "replay");
   run.summary = summary_of(study / run.folder, run.scalar, replay, described.value("fines_of_dose", 0.0));
   if (!run.summary && !replay.empty())
-    run.state = "failed", run.message = "its fines could not be replayed from this run";
+    run.state = "failed", run.exit_code = 7, run.message = "its fines could not be replayed from this run";
   return run;
 }
 

@@ -211,9 +211,12 @@ class Company {
     book({p.out, code, message});
   }
 
-  static void set_state(Population& p, const std::string& state) {
+  /// wall_clock: of summary.json [s]; 0: as it stands.
+  static void set_state(Population& p, const std::string& state, double wall_clock = 0.0) {
     output::Status last = output::read_status(p.folder->file("status.json"));
     last.state = state;
+    if (wall_clock > 0.0) last.wall_clock = wall_clock;
+    if (state == "finished") last.eta.reset();
     output::write_status(p.folder->file("status.json"), last);
     output::write_whole(p.folder->file("index.html"), output::live_page(last, p.recorder->history()));
   }
@@ -239,7 +242,7 @@ class Company {
     output::Summary summary = summarize(*p.simulation, *p.recorder, facts);
     summary.assumptions.push_back("carriers: they do not act on the air, whose flow this run shares with others");
     output::write_summary(p.folder->file("summary.json"), summary);
-    set_state(p, state);
+    set_state(p, state, facts.wall_clock);
     if (state == "stopped") return;
     try {
       output::write_whole(p.folder->path() / "report.html", output::make_report(p.folder->path()));

@@ -45,12 +45,13 @@ void set_plane(const std::string& text, output::RenderOptions& options) {
 void check_options(const RenderArguments& given) {
   const auto only_of = [&](bool asked, const char* option, std::vector<std::string> views) {
     if (asked && std::find(views.begin(), views.end(), given.view) == views.end())
-      throw UsageError(std::string(option) + ": the view " + given.view + " has no use for it; it is of " +
+      throw UsageError(std::string(option) + " does nothing in the view " + given.view + "; it belongs to " +
                        cases::join(views));
   };
   only_of(!given.quantity.empty(), "--quantity", {"slice", "wall-map"});
   only_of(!given.maximum.empty(), "--max", {"slice", "carriers", "streamlines"});
   only_of(!given.plane.empty(), "--plane", {"slice"});
+  only_of(!given.at.empty(), "--at", {"carriers", "slice", "streamlines", "wall-map"});
   const std::vector<std::string> solid{"carriers", "wall-map", "streamlines", "geometry"};
   only_of(given.azimuth.has_value(), "--azimuth", solid);
   only_of(given.elevation.has_value(), "--elevation", solid);
@@ -95,11 +96,11 @@ Command render() {
                 ->type_name("AXIS[=LENGTH]");
             app.add_option("--quantity", given->quantity,
                            "of the slice: speed (usual), pressure, fines (of the first scalar), fines_NAME; "
-                           "of the wall map: fines (usual), fines_NAME, hits, energy")
+                           "of the wall map: fines (usual), fines_NAME of a further scalar, hits, energy")
                 ->type_name("NAME");
             app.add_option("--max", given->maximum,
                            "upper end of the colour scale, to compare pictures: "
-                           "a speed, or of the slice in the unit of its quantity")
+                           "a speed; for a slice, a value in the unit of its quantity")
                 ->type_name("VALUE");
             app.add_option("--azimuth", given->azimuth, "where the eye stands: degrees from the x axis towards y");
             app.add_option("--elevation", given->elevation, "and degrees upwards; -90 from below")

@@ -179,6 +179,12 @@ TEST(Stats, ColumnsReadBack) {
   EXPECT_THROW(read_stats(folder / "stats.h5", "flow"), OutputError);
 }
 
+TEST(Stats, AScalarMayHaveAnyName) {
+  const Scratch folder;
+  { StatsFile(folder / "stats.h5", {{"FFE_L/D = 2", "1"}}).append(std::vector<double>{0.5}); }
+  EXPECT_EQ(read_stats(folder / "stats.h5", "FFE_L/D = 2"), std::vector<double>{0.5});
+}
+
 TEST(Hdf5, AnotherFormatOrADamagedFileIsAnOutputError) {
   const Scratch folder;
   { StatsFile file(folder / "stats.h5", {{"time", "s"}}); }

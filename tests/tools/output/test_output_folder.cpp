@@ -1,6 +1,10 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <chrono>
+#include <memory>
+#include <thread>
+
 #include "tests/tools/output/scratch.hpp"
 #include "tools/output/output_error.hpp"
 #include "tools/output/output_folder.hpp"
@@ -75,10 +79,22 @@ TEST(OutputFolder, AFolderAtWorkIsRefusedUntilItsRunIsOver) {
     const OutputFolder run(folder / "run", "x");
     run.write_text("status.json", "{}");
     EXPECT_NE(refusal(folder / "run", false).find("another run is at work"), std::string::npos);
-    EXPECT_NE(refusal(folder / "run", true).find("another run is at work"), std::string::npos);
     EXPECT_TRUE(fs::exists(folder / "run" / "status.json"));
   }
   EXPECT_EQ(refusal(folder / "run", false), "");
+}
+
+// A run that was told to end may still be writing its checkpoint when the same command goes on with it.
+TEST(OutputFolder, ResumingWaitsForARunThatIsEnding) {
+  const Scratch folder;
+  leave_run(folder / "run", "stopped", true);
+  auto ending = std::make_unique<OutputFolder>(folder / "run", "x", true);
+  std::thread end([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    ending.reset();
+  });
+  EXPECT_EQ(refusal(folder / "run", true), "");
+  end.join();
 }
 
 TEST(OutputFolder, AStudysFolderIsRefused) {

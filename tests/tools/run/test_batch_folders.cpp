@@ -9,6 +9,28 @@ namespace {
 using namespace puffin;
 using namespace puffin::test;
 
+/// A few carriers that fall onto a floor, with fines.
+constexpr const char* fall = R"toml(
+schema = 1
+name = "fall"
+geometry = { generator = "box", box = { x = "1 mm", y = "1 mm", z = "1 mm" } }
+air = { model = "none" }
+stop = { time = "1 ms" }
+output = { statistics = "0.5 ms" }
+[carriers]
+list = [{ position = [5e-4, 5e-4, 5e-4], velocity = [0.0, 0.0, -2.0], diameter = "100 um", density = "1520 kg/m^3" }]
+gravity = [0.0, 0.0, -9.81]
+fines_each = 100
+[fines]
+micromodels = "sound.toml"
+[[fines.scalar]]
+name = "drug"
+diffusion = "1e-6 kg/(m s)"
+)toml";
+constexpr const char* some_laws =
+    "label = \"given\"\nsource = \"test\"\nsurface_energy = 3.6e-3\n[wall_detach]\nlaw = \"power\"\n"
+    "A = [0.1, 1.0, 0.01, 0.1, 0.0]\nvalid = [0.0, 100.0]\n";
+
 TEST_F(BatchStudy, CasesThatOneFolderWouldHoldAreRefusedTogether) {
   file("study.toml",
        "base = \"case.toml\"\n[[case]]\nname = \"a/b\"\nset = { \"air.density\" = 1.3 }\n[[case]]\nname = \"a_b\"\n");
@@ -16,6 +38,18 @@ TEST_F(BatchStudy, CasesThatOneFolderWouldHoldAreRefusedTogether) {
   EXPECT_NE(text("log.txt").find("the cases 'a/b' and 'a_b' would share the folder a_b/seed-1"), std::string::npos)
       << text("log.txt");
   EXPECT_FALSE(fs::exists(folder_ / "out/a_b/seed-1/summary.json"));
+}
+
+// In a shared run too: there each has a file for what is replayed.
+TEST_F(BatchStudy, CasesOfOneRunAreToldApart) {
+  file("case.toml", fall);
+  file("sound.toml", some_laws);
+  file("other.toml", some_laws);
+  file("study.toml",
+       "base = \"case.toml\"\nshare = [\"micromodels\"]\n[[case]]\nname = \"a b\"\n[[case]]\nname = \"a_b\"\n"
+       "set = { \"fines.micromodels\" = \"other.toml\" }\n");
+  EXPECT_EQ(batch(""), 3);
+  EXPECT_NE(text("log.txt").find("the cases 'a b' and 'a_b' would share"), std::string::npos) << text("log.txt");
 }
 
 TEST_F(BatchStudy, AStudyAndARunDoNotShareAFolder) {
@@ -43,30 +77,9 @@ TEST_F(BatchStudy, APageThatAKillHasPreventedIsMadeLater) {
   EXPECT_TRUE(fs::exists(folder_ / "out/a/seed-1/report.html"));
 }
 
-/// A few carriers that fall onto a floor, with fines.
-constexpr const char* fall = R"toml(
-schema = 1
-name = "fall"
-geometry = { generator = "box", box = { x = "1 mm", y = "1 mm", z = "1 mm" } }
-air = { model = "none" }
-stop = { time = "1 ms" }
-output = { statistics = "0.5 ms" }
-[carriers]
-list = [{ position = [5e-4, 5e-4, 5e-4], velocity = [0.0, 0.0, -2.0], diameter = "100 um", density = "1520 kg/m^3" }]
-gravity = [0.0, 0.0, -9.81]
-fines_each = 100
-[fines]
-micromodels = "sound.toml"
-[[fines.scalar]]
-name = "drug"
-diffusion = "1e-6 kg/(m s)"
-)toml";
-
 TEST_F(BatchStudy, LawsThatCannotBeReadFailTheirCaseAloneAlsoWhereRunsAreShared) {
   file("case.toml", fall);
-  file("sound.toml",
-       "label = \"given\"\nsource = \"test\"\nsurface_energy = 3.6e-3\n[wall_detach]\nlaw = \"power\"\n"
-       "A = [0.1, 1.0, 0.01, 0.1, 0.0]\nvalid = [0.0, 100.0]\n");
+  file("sound.toml", some_laws);
   file("wrong.toml", "label = \"given\"\nsource = \"test\"\n[wall_detach]\nlaw = \"pwer\"\n");
   file("study.toml",
        "base = \"case.toml\"\nshare = [\"micromodels\"]\n[[case]]\nname = \"a\"\n[[case]]\nname = \"b\"\n"
@@ -77,6 +90,25 @@ TEST_F(BatchStudy, LawsThatCannotBeReadFailTheirCaseAloneAlsoWhereRunsAreShared)
   EXPECT_EQ(results.cases[1].runs[0].state, "failed");
   EXPECT_EQ(results.cases[1].runs[0].exit_code, 3);
   EXPECT_NE(text("out/b/seed-1/run.log").find("pwer"), std::string::npos) << text("out/b/seed-1/run.log");
+}
+
+TEST_F(BatchStudy, ACaseThatCannotBeReplayedHasFailed) {
+  file("case.toml", fall);
+  file("sound.toml", some_laws);
+  file("study.toml",
+       "base = \"case.toml\"\nshare = [\"micromodels\"]\n[[case]]\nname = \"a\"\n[[case]]\nname = \"b\"\n"
+       "set = { \"fines.micromodels\" = \"other.toml\" }\n");
+  file("other.toml", some_laws);
+  ASSERT_EQ(batch(""), 0) << text("log.txt");
+  const fs::path shared = folder_ / "out/shared/a_b/seed-1";
+  fs::remove(shared / "replay-b.json");
+  std::ofstream(shared / "events.h5") << "no record";
+  EXPECT_EQ(batch(""), 8);
+  EXPECT_NE(text("log.txt").find("b: no replay of"), std::string::npos) << text("log.txt");
+  const output::StudyResults results = output::read_study_results(folder_ / "out");
+  EXPECT_EQ(results.cases[0].runs[0].state, "done");
+  EXPECT_EQ(results.cases[1].runs[0].state, "failed");
+  EXPECT_EQ(results.cases[1].runs[0].exit_code, 7);
 }
 
 }  // namespace

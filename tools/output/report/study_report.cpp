@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tools/output/csv_file.hpp"
+#include "tools/output/output_error.hpp"
 #include "tools/output/report.hpp"
 #include "tools/output/report/chart.hpp"
 #include "tools/output/report/html.hpp"
@@ -96,12 +97,10 @@ std::string outcomes(const StudyResults& results) {
 /// them.
 std::vector<double> column_of(const StudyRun& run, const fs::path& folder, const std::string& column,
                               const CsvTable& history) {
-  const fs::path stats = folder / "stats.h5";
-  const std::string own = column + "_" + run.scalar;
-  if (!run.scalar.empty() && fs::exists(stats)) {
-    const std::vector<std::string> names = stats_names(stats);
-    if (std::find(names.begin(), names.end(), own) != names.end()) return read_stats(stats, own);
-  }
+  if (!run.scalar.empty()) try {
+      return read_stats(folder / "stats.h5", column + "_" + run.scalar);
+    } catch (const OutputError&) {  // an earlier program's run, or a damaged file
+    }
   return history.numbers(column);
 }
 

@@ -128,7 +128,7 @@ Book::Book(fs::path folder, const cases::Study& study, const Jobs& plan)
   std::error_code error;
   fs::create_directories(folder_, error);
   folder_ = fs::absolute(folder_);
-  if (!fs::exists(folder_ / "study.json") && fs::exists(folder_ / "case.toml"))
+  if (!fs::exists(folder_ / "study.json") && fs::exists(folder_ / "status.json"))
     throw output::OutputError(folder_.string() + " holds a run; choose another folder for the study with --out");
   // Got from elsewhere, the folder may hold links; what is written whole replaces them, but these are written through.
   for (const char* name : {".lock", "shared/any", "shared/beds/any", "slurm/any"})

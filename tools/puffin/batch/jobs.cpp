@@ -146,7 +146,7 @@ Job merged(const cases::Study& study, const std::vector<Candidate>& all, const s
   job.sets.push_back({"name", cases::toml_string(name)});
   const cases::Case c = cases::read_case(job.base, job.sets, preset);
   job.resolved = cases::write_resolved(c);
-  constexpr std::size_t longest = 100;  // some systems take no more than 255
+  constexpr std::size_t longest = 200;  // some systems take no more than 255
   job.id = "shared/" + output::folder_name(name).substr(0, longest);
   if (name.size() > longest) job.id += "-and-more-" + std::to_string(group.size());
   return job;
@@ -260,12 +260,18 @@ namespace {
 /// Names that differ in what no folder can bear would make two cases one.
 void require_own_folders(const cases::Study& study, const std::vector<Job>& jobs) {
   std::map<std::string, std::string> owners;
-  for (const Job& job : jobs) {
-    const auto [at, fresh] = owners.emplace(job.id, listed(study, job));
+  const auto take = [&](const std::string& place, const std::string& name) {
+    const auto [at, fresh] = owners.emplace(place, name);
     if (!fresh)
       throw cases::CaseError({{study.file.string(), 0, 0, "",
-                               "the cases '" + at->second + "' and '" + listed(study, job) +
-                                   "' would share the folder " + job.id + "; rename one of them"}});
+                               "the cases '" + at->second + "' and '" + name + "' would share the folder " + place +
+                                   "; rename one of them"}});
+  };
+  for (const Job& job : jobs) {
+    take(job.id, listed(study, job));
+    if (job.members.size() < 2) continue;
+    for (const Member& m : job.members)  // their replays
+      take(job.id + "/" + output::folder_name(study.cases[m.which].name), study.cases[m.which].name);
   }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <csignal>
 #include <cstring>
+#include <fstream>
 #include <thread>
 
 #include "tools/output/output_folder.hpp"
@@ -117,7 +118,7 @@ class Batch {
       if (!plan_.jobs[n].problem.empty()) {
         fail(n, case_invalid, plan_.jobs[n].problem);
         std::filesystem::create_directories(book_.run_folder(n));
-        output::write_whole(book_.log_file(n), plan_.jobs[n].problem + "\n");
+        std::ofstream(book_.log_file(n), std::ios::app) << plan_.jobs[n].problem << '\n';
         continue;
       }
       if (book_.finished(n)) {
@@ -206,15 +207,14 @@ class Batch {
       incomplete_ = !complete(n, study_, plan_, book_) || incomplete_;
       if (options_.slurm) r.seconds = output::read_summary(book_.run_folder(n) / "summary.json").wall_clock;
       if (!options_.quiet) log_info(plan_.jobs[n].id + ": done in " + as_time(r.seconds));
-    } else if (code == stopped || code == interrupted) {
+    } else if (code == stopped || code == interrupted || (told_ && code == killed_by + SIGTERM)) {
       r.state = JobState::stopped;
       log_warning(plan_.jobs[n].id + ": stopped; the same command goes on with it");
     } else {
       fail(n, code == ok ? internal_error : code,
-           code > killed_by
-               ? "ended by signal " + std::to_string(code - killed_by) + " (" + strsignal(code - killed_by) +
-                     "); the same command with --retry-failed goes on with it"
-               : last_line(book_.log_file(n)));
+           code > killed_by ? "ended by signal " + std::to_string(code - killed_by) + " (" +
+                                  strsignal(code - killed_by) + "); the same command with --retry-failed tries it again"
+                            : last_line(book_.log_file(n)));
     }
   }
 
