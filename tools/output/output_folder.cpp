@@ -11,6 +11,8 @@
 #include <chrono>
 #include <cstring>
 #include <ctime>
+#include <fstream>
+#include <iterator>
 #include <string_view>
 #include <thread>
 
@@ -24,10 +26,10 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Everything a run writes at the top of its folder; nothing else is ever removed.
-constexpr std::array<std::string_view, 18> own_names{
-    "case.toml",   "status.json", "log.txt",   "summary.json", "summary.csv", "index.html",
-    "history.csv", "stats.h5",    "events.h5", "probes.csv",   "lines.csv",   "planes.csv",
-    "forces.csv",  "tracks.csv",  "vtk",       "checkpoints",  "images",      "report.html"};
+constexpr std::array<std::string_view, 19> own_names{
+    "case.toml", "status.json", "log.txt",    "summary.json", "summary.csv",     "index.html", "history.csv",
+    "stats.h5",  "events.h5",   "probes.csv", "lines.csv",    "planes.csv",      "forces.csv", "tracks.csv",
+    "vtk",       "checkpoints", "images",     "report.html",  "micromodels.toml"};
 
 [[noreturn]] void fail(const fs::path& where, const std::string& what, int error) {
   const bool vanished = error == ENOENT && !fs::exists(where.parent_path());
@@ -245,6 +247,11 @@ void write_and_rename(const fs::path& file, const std::string& text, bool sync) 
 void write_whole(const fs::path& file, const std::string& text) { write_and_rename(file, text, true); }
 
 void replace_whole(const fs::path& file, const std::string& text) { write_and_rename(file, text, false); }
+
+std::string read_whole(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
 
 void keep_first(const fs::path& file, std::uint64_t bytes) {
   std::error_code error;

@@ -51,6 +51,8 @@ std::int64_t checkpoint_number(const std::filesystem::path& file);
 void write_whole(const std::filesystem::path& file, const std::string& text);
 /// The same without waiting for the disk: readers find it whole, a power failure may still take it until sync_file().
 void replace_whole(const std::filesystem::path& file, const std::string& text);
+/// The bytes of a file; "" if it cannot be read.
+std::string read_whole(const std::filesystem::path& file);
 /// Cuts a file behind its first `bytes`. Throws OutputError if it is shorter or cannot be cut.
 void keep_first(const std::filesystem::path& file, std::uint64_t bytes);
 /// What other programs and a power failure will see is what was written. Throws OutputError.

@@ -20,13 +20,6 @@ std::uint64_t hash_of(const T& values, std::uint64_t seed = 0) {
   return coupling::xxh64(std::as_bytes(std::span(values)), seed);
 }
 
-std::string text_of(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::stringstream all;
-  all << stream.rdbuf();
-  return all.str();
-}
-
 /// The first line in which two texts differ, of each.
 std::pair<std::string, std::string> first_difference(const std::string& a, const std::string& b) {
   std::istringstream left(a), right(b);
@@ -59,7 +52,7 @@ std::string identity_of(const cases::Simulation& s) {
   text << "surface = " << surface << '\n';
   text << "lattice = " << coupling::fingerprint(s.state) << '\n';
   if (c.fines && !c.fines->micromodels.empty())
-    text << "micro-models = " << hash_of(text_of(c.fines->micromodels)) << '\n';
+    text << "micro-models = " << hash_of(output::read_whole(c.fines->micromodels)) << '\n';
   return text.str();
 }
 

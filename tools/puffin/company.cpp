@@ -119,7 +119,7 @@ class Company {
     announce(*p.folder, c);
     const LogToFile log(p.folder->file("log.txt"));
     for (const std::string& text : warnings) log_warning(c.name + ": " + text);
-    p.folder->write_text("case.toml", cases::write_resolved(c));
+    keep_case(c, *p.folder);
     p.health = std::make_unique<coupling::Health>(p.simulation->models, p.state());
     p.recorder = std::make_unique<Recorder>(*p.simulation, *p.folder);
     p.progress = std::make_unique<Progress>(*p.simulation, *p.folder, options_.quiet || !all_.empty());

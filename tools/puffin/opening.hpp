@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cases/build.hpp"
+#include "tools/output/output_folder.hpp"
 
 namespace puffin::tools {
 
@@ -17,6 +18,9 @@ std::unique_ptr<cases::Simulation> built(const cases::Case& c, const std::filesy
 
 /// Of places in vain, and of what the run does otherwise than described. Throws as PointReader::check_places.
 std::vector<std::string> first_warnings(const cases::Simulation& s);
+
+/// The case as it runs, and beside it the laws of its fines, whose file may change later: case.toml, micromodels.toml.
+void keep_case(const cases::Case& c, const output::OutputFolder& folder);
 
 /// The run's first line, and where its dose comes from.
 void log_beginning(const cases::Simulation& s, int threads, const std::filesystem::path& out);

@@ -47,7 +47,7 @@ int run_here(const RunOptions& options, cases::Case c, int threads, std::chrono:
   log_to_file(folder.file("log.txt"));
   if (options.resume && !folder.resumed())
     log_warning(folder.path().string() + " was killed before its first checkpoint: the run begins anew");
-  folder.write_text("case.toml", cases::write_resolved(c));
+  keep_case(c, folder);
   log_beginning(s, threads, folder.path());
   RunFacts facts;
   facts.threads = threads;

@@ -92,6 +92,27 @@ TEST_F(BatchStudy, LawsThatCannotBeReadFailTheirCaseAloneAlsoWhereRunsAreShared)
   EXPECT_NE(text("out/b/seed-1/run.log").find("pwer"), std::string::npos) << text("out/b/seed-1/run.log");
 }
 
+TEST_F(BatchStudy, ChangedLawsAreNotThoseOfTheFinishedRun) {
+  file("case.toml", fall);
+  file("sound.toml", some_laws);
+  file("other.toml", some_laws);
+  file("study.toml",
+       "base = \"case.toml\"\nshare = [\"micromodels\"]\n[[case]]\nname = \"a\"\n[[case]]\nname = \"b\"\n"
+       "set = { \"fines.micromodels\" = \"other.toml\" }\n");
+  ASSERT_EQ(batch(""), 0) << text("log.txt");
+  const auto left_on = [&](int n) { return output::read_study_results(folder_ / "out").cases[n].find("FFCR")->mean; };
+  EXPECT_EQ(left_on(0), left_on(1));
+
+  std::string weaker = some_laws;
+  weaker.replace(weaker.find("0.1, 0.0]"), 9, "0.05, 0.0]");
+  file("other.toml", weaker);  // only a replay: done again
+  ASSERT_EQ(batch(""), 0) << text("log.txt");
+  EXPECT_GT(left_on(1), left_on(0));
+  file("sound.toml", weaker);  // the run's own
+  EXPECT_EQ(batch(""), 7);
+  EXPECT_NE(text("log.txt").find("with other laws than its micro-model file has now"), std::string::npos);
+}
+
 TEST_F(BatchStudy, ACaseThatCannotBeReplayedHasFailed) {
   file("case.toml", fall);
   file("sound.toml", some_laws);

@@ -22,11 +22,6 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-std::string text_of(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
-
 constexpr const char* state_names[] = {"waiting", "running", "done", "failed", "stopped"};
 
 JobState state_of(const std::string& name) {
@@ -143,9 +138,9 @@ Book::Book(fs::path folder, const cases::Study& study, const Jobs& plan)
   }
   if (!study.experiments.empty()) {
     output::read_experiments(study.experiments);  // its mistakes are told now, not after the runs
-    output::write_whole(folder_ / "experiments.csv", text_of(study.experiments));
+    output::write_whole(folder_ / "experiments.csv", output::read_whole(study.experiments));
   }
-  const Json before = Json::parse(text_of(folder_ / "study.json"), nullptr, false);
+  const Json before = Json::parse(output::read_whole(folder_ / "study.json"), nullptr, false);
   if (!before.is_object() || !before.contains("jobs")) return;
   for (const Json& j : before["jobs"])
     for (std::size_t n = 0; n < records_.size(); ++n)
@@ -163,7 +158,13 @@ Book::~Book() {
 bool Book::finished(std::size_t job) const {
   const fs::path run = run_folder(job);
   if (!fs::exists(run / "summary.json") || output::read_summary(run / "summary.json").state != "finished") return false;
-  if (without_name(text_of(run / "case.toml")) == without_name(plan_.jobs[job].resolved)) return true;
+  if (without_name(output::read_whole(run / "case.toml")) == without_name(plan_.jobs[job].resolved)) {
+    if (!fs::exists(run / "micromodels.toml") || output::read_whole(run / "micromodels.toml") == plan_.jobs[job].laws)
+      return true;
+    throw output::OutputError(run.string() +
+                              " holds a finished run with other laws than its micro-model file has now; "
+                              "give the changed study another folder with --out");
+  }
   throw output::OutputError(run.string() + " holds a finished run of another case than the study's " +
                             plan_.jobs[job].id + "; give the changed study another folder with --out");
 }

@@ -25,6 +25,7 @@ struct Job {
   std::filesystem::path base;
   std::vector<cases::Override> sets;
   std::string resolved;  // the case as the run will write it; empty if it is invalid
+  std::string laws;      // what its micro-model file holds; "" without
   std::string problem;   // why it is invalid
   double cost = 0.0;     // relative: cells times steps
   std::string flow;      // jobs with the same one run in one process and one flow; "" alone

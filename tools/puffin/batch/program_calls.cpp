@@ -89,11 +89,16 @@ bool complete(std::size_t job, const cases::Study& study, const Jobs& plan, cons
   bool whole = true;
   for (const Member& m : plan.jobs[job].members) {
     const std::filesystem::path file = book.replay_file(job, m), part = file.string() + ".part";
-    if (m.micromodels.empty() || std::filesystem::exists(file)) continue;
+    if (m.micromodels.empty()) continue;
+    const std::filesystem::path kept = std::filesystem::path(file).replace_extension(".toml");
+    const std::string laws = output::read_whole(m.micromodels);
+    if (std::filesystem::exists(file) && output::read_whole(kept) == laws) continue;
+    std::filesystem::remove(file);
     std::filesystem::remove(part);  // a link would be written through
     if (called("replay " + shell_quoted(run) + " --micromodels " + shell_quoted(m.micromodels) + " --json", part) ==
         0) {
       output::finish_file(part, file);
+      output::write_whole(kept, laws);
       continue;
     }
     whole = false;

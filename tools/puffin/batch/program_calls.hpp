@@ -18,8 +18,8 @@ std::vector<std::string> run_arguments(const std::vector<std::size_t>& group, in
 int own_code(std::size_t job, std::size_t starter, int code, const Jobs& plan, const Book& book);
 
 /// What a finished run still lacks: `puffin replay` for each case of the job that differs from its run in the
-/// micro-models and has no tables yet, and `puffin report` if it was killed before its page was written. False if a
-/// case has no tables for all that, which is told.
+/// micro-models and has none of these laws yet, and `puffin report` if it was killed before its page was written. False
+/// if a case has no tables for all that, which is told.
 bool complete(std::size_t job, const cases::Study& study, const Jobs& plan, const Book& book);
 
 }  // namespace puffin::tools
