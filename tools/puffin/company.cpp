@@ -216,7 +216,7 @@ class Company {
     output::Status last = output::read_status(p.folder->file("status.json"));
     last.state = state;
     if (wall_clock > 0.0) last.wall_clock = wall_clock;
-    if (state == "finished") last.eta.reset();
+    if (state == "finished") last.eta = 0.0;
     output::write_status(p.folder->file("status.json"), last);
     output::write_whole(p.folder->file("index.html"), output::live_page(last, p.recorder->history()));
   }

@@ -74,7 +74,7 @@ int run_here(const RunOptions& options, cases::Case c, int threads, std::chrono:
   output::Status last = output::read_status(folder.file("status.json"));
   last.state = facts.state;
   last.wall_clock = facts.wall_clock;
-  if (ending.code == ok) last.eta.reset();
+  if (ending.code == ok) last.eta = 0.0;
   output::write_status(folder.file("status.json"), last);
   if (options.json) print(output::summary_json(summary));
   return ending.code;

@@ -133,7 +133,9 @@ time = "0.5 ms"
   EXPECT_EQ(output::read_summary(folder_ / "dry" / "summary.json").carriers->RDF, 0.5);
   EXPECT_NE(text("dry.log").find("of 0.5 ms"), std::string::npos) << text("dry.log");
   const std::string eta = "\"eta\": ", status = text("dry/status.json");
-  EXPECT_GE(std::stod(status.substr(status.find(eta) + eta.size())), 0.0) << "the last step reaches beyond the end";
+  EXPECT_EQ(std::stod(status.substr(status.find(eta) + eta.size())), 0.0) << "it is over";
+  EXPECT_EQ(output::read_status(folder_ / "dry" / "status.json").wall_clock,
+            output::read_summary(folder_ / "dry" / "summary.json").wall_clock);
 }
 
 TEST_F(Run, AFinishedRunIsNotOverwritten) {
