@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <chrono>
 #include <memory>
 #include <thread>
@@ -89,11 +90,14 @@ TEST(OutputFolder, ResumingWaitsForARunThatIsEnding) {
   const Scratch folder;
   leave_run(folder / "run", "stopped", true);
   auto ending = std::make_unique<OutputFolder>(folder / "run", "x", true);
+  std::atomic<bool> over = false;
   std::thread end([&] {
     std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    over = true;
     ending.reset();
   });
   EXPECT_EQ(refusal(folder / "run", true), "");
+  EXPECT_TRUE(over) << "it did not wait";
   end.join();
 }
 

@@ -66,6 +66,7 @@ TEST_F(BatchStudy, AKilledBatchGoesOnWithoutRedoingWhatIsFinished) {
   EXPECT_EQ(batch("--only 'duct-[123]'"), 0);
   EXPECT_EQ(text("out/duct-1/seed-1/summary.json"), before);
   const std::string book = text("out/study.json");
+  ASSERT_NE(book.find("\"attempts\": 2"), std::string::npos);
   EXPECT_EQ(book.find("\"attempts\": 2"), book.rfind("\"attempts\": 2")) << "the long run alone";
 }
 
