@@ -51,6 +51,8 @@ Case parse_case(std::string_view toml_text, const std::filesystem::path& file, c
                 std::string_view preset) {
   const std::string name = file.string();
   toml::table root = format::parse_toml(toml_text, name);
+  if (format::describes_study(root))
+    throw CaseError({{name, 1, 1, "", "this is a study, not a case: it is for puffin batch and puffin plan"}});
   format::Findings findings(name, toml_text);
   format::inherit(root, file, findings);
   if (!findings.problems().empty()) throw CaseError(findings.sorted_problems());

@@ -175,7 +175,8 @@ std::vector<StudyCase> swept(const std::vector<StudyCase>& cases, const Sweep& s
     for (const StudyCase& c : cases)
       for (std::size_t n = 0; n < points.size(); ++n) {
         all.push_back(c);
-        all.back().name += "-" + std::to_string(n + 1);
+        all.back().name += '-';
+        all.back().name += std::to_string(n + 1);
         for (std::size_t k = 0; k < ranges.size(); ++k) {
           add(all.back(), ranges[k].key, points[n][k], places[k]);
           all.back().swept.push_back(ranges[k].key);
@@ -205,6 +206,9 @@ void check_names(const std::vector<StudyCase>& cases, Findings& findings) {
 Study read_study(const std::filesystem::path& file) {
   const std::string name = file.string(), text = format::read_text(file);
   const toml::table root = format::parse_toml(text, name);
+  if (format::describes_case(root))
+    throw CaseError(
+        {{name, 1, 1, "", "this is a case, not a study: run it with puffin run, or name it as the base of a study"}});
   Findings findings(name, text);
   format::TomlFields fields(root, "", findings, file.parent_path());
   Draft d;

@@ -17,7 +17,10 @@ namespace {
 
 using Eigen::Vector3d;
 constexpr std::size_t carriers_a_part = 512;  // shared among threads
-constexpr int steps_of_budget = 8;            // a neighbour list should serve this many steps at the present speeds
+// A neighbour list should serve this many steps at the present speeds: as many as leave a carrier `most_neighbours`,
+// beyond which looking at them in every step costs more than a new list. The last leaves room for a second try.
+constexpr double steps_of_budget[] = {8.0, 4.0, 2.0, 1.1};
+constexpr double most_neighbours = 100.0;
 
 bool moves(const State& state, std::int32_t i) { return state.carriers.rest[i] == Rest::awake; }
 
@@ -173,9 +176,12 @@ void renew_neighbours(double duration, const Rules& rules, const Gathering& g, S
   const Carriers& all = state.carriers;
   double diameter = 0.0;
   for (const double r : all.radius) diameter += 2.0 * r / static_cast<double>(all.size());
-  state.neighbours.budget.assign(all.size(), 0.5 * rules.integration.skin * diameter);
-  for (const std::int32_t i : g.awake)
-    state.neighbours.budget[i] += steps_of_budget * (all.velocity[i].norm() * duration + g.margin[i]);
+  std::vector<double>& budget = state.neighbours.budget;
+  for (const double steps : steps_of_budget) {
+    budget.assign(all.size(), 0.5 * rules.integration.skin * diameter);
+    for (const std::int32_t i : g.awake) budget[i] += steps * (all.velocity[i].norm() * duration + g.margin[i]);
+    if (expected_neighbours(all, budget, g.awake) <= most_neighbours) break;
+  }
   build(all, state.neighbours);
   ++state.statistics.rebuilds;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "dem/parts.hpp"
@@ -12,34 +13,48 @@ namespace {
 
 constexpr std::size_t carriers_a_part = 512;  // shared among threads
 
+/// What the search asks of a carrier; copied into the order of the cells, where those of a cell lie side by side.
+struct Member {
+  Eigen::Matrix<std::int64_t, 3, 1> key;  // of its cell
+  Eigen::Vector3d position;
+  double radius, budget;
+  std::int32_t place;
+};
+
 /// Carriers sorted into cubic cells by a hash of the cell's indices: any extent of space, cost ~ number of carriers.
 class Cells {
  public:
-  Cells(const std::vector<Eigen::Vector3d>& position, double edge) : edge_(edge) {
-    const std::size_t n = position.size();
+  Cells(const Carriers& carriers, const std::vector<double>& budget, double edge) : edge_(edge) {
+    const std::size_t n = carriers.size();
     std::size_t buckets = 64;
     while (buckets < 2 * n) buckets *= 2;
     mask_ = buckets - 1;
-    key_.resize(n);
     begin_.assign(buckets + 1, 0);
-    for (std::size_t i = 0; i < n; ++i) {
-      key_[i] = cell(position[i]);
-      ++begin_[bucket(key_[i]) + 1];
-    }
+    for (const auto& x : carriers.position) ++begin_[bucket(cell(x)) + 1];
     for (std::size_t b = 0; b < buckets; ++b) begin_[b + 1] += begin_[b];
     members_.resize(n);
     std::vector<std::int32_t> next(begin_.begin(), begin_.end() - 1);
-    for (std::size_t i = 0; i < n; ++i) members_[next[bucket(key_[i])]++] = static_cast<std::int32_t>(i);
+    for (std::size_t i = 0; i < n; ++i) {
+      const Key key = cell(carriers.position[i]);
+      members_[next[bucket(key)]++] = {key, carriers.position[i], carriers.radius[i], budget[i],
+                                       static_cast<std::int32_t>(i)};
+    }
   }
 
   using Key = Eigen::Matrix<std::int64_t, 3, 1>;
   Key cell(const Eigen::Vector3d& x) const { return {index(x[0]), index(x[1]), index(x[2])}; }
-  /// Calls use(j) for each carrier j in the cell, in ascending order.
+  /// Calls use(member) for each carrier in the cell, in ascending order of their places.
   template <class Use>
   void visit(const Key& key, Use use) const {
     const std::size_t b = bucket(key);
     for (std::int32_t m = begin_[b]; m < begin_[b + 1]; ++m)
-      if (key_[members_[m]] == key) use(members_[m]);
+      if (members_[m].key == key) use(members_[m]);
+  }
+  const std::vector<Member>& members() const { return members_; }
+  /// Carriers in the cell of x, and those whose cells have the same hash.
+  std::int32_t crowd(const Eigen::Vector3d& x) const {
+    const std::size_t b = bucket(cell(x));
+    return begin_[b + 1] - begin_[b];
   }
 
  private:
@@ -57,12 +72,19 @@ class Cells {
   }
   double edge_;
   std::size_t mask_ = 0;
-  std::vector<Key> key_;
-  std::vector<std::int32_t> begin_, members_;
+  std::vector<std::int32_t> begin_;
+  std::vector<Member> members_;
 };
 
 double reach_of(const Carriers& carriers, const std::vector<double>& budget, double largest, std::size_t i) {
   return carriers.radius[i] + largest + 2.0 * budget[i];
+}
+
+double mean_reach(const std::vector<double>& budget, double largest) {
+  double mean_budget = 0.0;
+  for (const double b : budget)
+    if (std::isfinite(b)) mean_budget += b / static_cast<double>(budget.size());
+  return 2.0 * largest + 2.0 * mean_budget;
 }
 
 /// Cells of edges e, 2e, 4e ...: a carrier searches those it reaches across, 27 to 125 of them. In cells of one edge a
@@ -70,15 +92,18 @@ double reach_of(const Carriers& carriers, const std::vector<double>& budget, dou
 class Levels {
  public:
   Levels(const Carriers& carriers, const std::vector<double>& budget, double largest, double edge) : edge_(edge) {
+    cells_.emplace_back(Cells(carriers, budget, edge));
     for (std::size_t i = 0; i < carriers.size(); ++i) {
       const double reach = reach_of(carriers, budget, largest, i);
       if (!std::isfinite(reach)) continue;
       const std::size_t level = level_of(reach);
       if (level >= cells_.size()) cells_.resize(level + 1);
-      if (!cells_[level]) cells_[level].emplace(carriers.position, std::ldexp(edge, static_cast<int>(level)));
+      if (!cells_[level]) cells_[level].emplace(carriers, budget, std::ldexp(edge, static_cast<int>(level)));
     }
   }
   const Cells& of(double reach) const { return *cells_[level_of(reach)]; }
+  /// All carriers, those of a small cell one after the other.
+  const std::vector<Member>& members() const { return cells_[0]->members(); }
 
  private:
   std::size_t level_of(double reach) const {
@@ -90,6 +115,19 @@ class Levels {
 
 }  // namespace
 
+double expected_neighbours(const Carriers& carriers, const std::vector<double>& budget,
+                           std::span<const std::int32_t> which) {
+  if (which.empty()) return 0.0;
+  const double largest = *std::max_element(carriers.radius.begin(), carriers.radius.end());
+  const double edge = mean_reach(budget, largest);
+  const Cells cells(carriers, budget, edge);
+  double sum = 0.0;
+  for (const std::int32_t i : which)
+    if (const double reach = reach_of(carriers, budget, largest, i) / edge; std::isfinite(reach))
+      sum += reach * reach * reach * cells.crowd(carriers.position[i]);
+  return 4.0 / 3.0 * std::numbers::pi * sum / static_cast<double>(which.size());
+}
+
 void build(const Carriers& carriers, Neighbours& neighbours) {
   const std::size_t n = carriers.size();
   neighbours.built_at = carriers.position;
@@ -98,31 +136,27 @@ void build(const Carriers& carriers, Neighbours& neighbours) {
   neighbours.valid = true;
   if (n == 0) return;
   const double largest = *std::max_element(carriers.radius.begin(), carriers.radius.end());
-  double mean_budget = 0.0;
-  for (const double b : neighbours.budget)
-    if (std::isfinite(b)) mean_budget += b / static_cast<double>(n);
-  const Levels levels(carriers, neighbours.budget, largest, 2.0 * largest + 2.0 * mean_budget);
+  const Levels levels(carriers, neighbours.budget, largest, mean_reach(neighbours.budget, largest));
 
   // Each pair is found by the partner with the larger budget (the larger place if equal), whose search reaches far
   // enough.
   std::vector<std::vector<std::array<std::int32_t, 2>>> found((n + carriers_a_part - 1) / carriers_a_part);
   in_parts(n, carriers_a_part, [&](std::size_t part, std::size_t first, std::size_t last) {
     auto& pairs = found[part];
-    for (std::size_t i = first; i < last; ++i) {
-      const double budget = neighbours.budget[i], reach = reach_of(carriers, neighbours.budget, largest, i);
+    for (std::size_t m = first; m < last; ++m) {  // in their order: those of one cell search the same cells
+      const Member& own = levels.members()[m];
+      const double reach = own.radius + largest + 2.0 * own.budget;
       if (!std::isfinite(reach)) continue;
       const Cells& cells = levels.of(reach);
-      const Eigen::Vector3d x = carriers.position[i], arm = Eigen::Vector3d::Constant(reach);
-      const auto low = cells.cell(x - arm), high = cells.cell(x + arm);
+      const Eigen::Vector3d arm = Eigen::Vector3d::Constant(reach);
+      const auto low = cells.cell(own.position - arm), high = cells.cell(own.position + arm);
       for (std::int64_t cz = low[2]; cz <= high[2]; ++cz)
         for (std::int64_t cy = low[1]; cy <= high[1]; ++cy)
           for (std::int64_t cx = low[0]; cx <= high[0]; ++cx)
-            cells.visit({cx, cy, cz}, [&](std::int32_t j) {
-              const double other = neighbours.budget[j];
-              if (other > budget || (other == budget && j >= static_cast<std::int32_t>(i))) return;
-              const double far = carriers.radius[i] + carriers.radius[j] + budget + other;
-              if ((carriers.position[j] - x).squaredNorm() < far * far)
-                pairs.push_back({static_cast<std::int32_t>(i), j});
+            cells.visit({cx, cy, cz}, [&](const Member& other) {
+              if (other.budget > own.budget || (other.budget == own.budget && other.place >= own.place)) return;
+              const double far = own.radius + other.radius + own.budget + other.budget;
+              if ((other.position - own.position).squaredNorm() < far * far) pairs.push_back({own.place, other.place});
             });
     }
   });

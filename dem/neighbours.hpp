@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "dem/carriers.hpp"
@@ -24,5 +25,11 @@ struct Neighbours {
 /// carriers, for budgets up to about the radius. A carrier whose place or budget is no finite number has none (the
 /// health check will end the run), the others keep theirs.
 void build(const Carriers& carriers, Neighbours& neighbours);
+
+/// About how many neighbours a carrier of `which` would be given by build() with these budgets [m]: the mean of
+///   (4/3) pi (reach/e)^3 c,  reach = radius + largest radius + 2 budget,
+/// c the carriers in its cube of edge e, the mean reach. Cost ~ number of carriers, whatever it returns.
+double expected_neighbours(const Carriers& carriers, const std::vector<double>& budget,
+                           std::span<const std::int32_t> which);
 
 }  // namespace puffin::dem

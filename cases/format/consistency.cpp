@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <set>
 
@@ -180,7 +181,17 @@ class Checks {
     if (!c_.fines) return;
     unique_names("fines.scalar", c_.fines->scalars);
     std::vector<std::string> names;
-    for (const Scalar& s : c_.fines->scalars) names.push_back(s.name);
+    std::map<std::string, std::string> stored;  // by the name in stats.h5, where '/' would be a group
+    for (std::size_t i = 0; i < c_.fines->scalars.size(); ++i) {
+      const std::string& name = c_.fines->scalars[i].name;
+      names.push_back(name);
+      std::string there = name;
+      std::replace(there.begin(), there.end(), '/', '_');
+      const auto [first, fresh] = stored.emplace(there, name);
+      if (!fresh && first->second != name)
+        say(indexed("fines.scalar", i) + ".name",
+            "'" + first->second + "' and '" + name + "' are both '" + there + "' in stats.h5; rename one of them");
+    }
     for (std::size_t i = 0; i < c_.fines->boundaries.size(); ++i) {
       const ScalarBoundary& b = c_.fines->boundaries[i];
       known_patch(indexed("fines.boundary", i) + ".patch", b.patch);

@@ -1,7 +1,10 @@
 #include "cases/format/toml_file.hpp"
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <span>
+#include <string_view>
 #include <system_error>
 
 #include "cases/case_error.hpp"
@@ -49,5 +52,18 @@ toml::table parse_toml(std::string_view text, const std::string& file) try {
   throw CaseError({{file, static_cast<int>(at.line), static_cast<int>(at.column), "",
                     "this is not TOML: " + std::string(e.description())}});
 }
+
+namespace {
+
+bool has_any(const toml::table& root, std::span<const std::string_view> keys) {
+  return std::any_of(keys.begin(), keys.end(), [&](std::string_view key) { return root.contains(key); });
+}
+constexpr std::string_view of_a_study[] = {"case", "sweep", "replicates", "share"};
+constexpr std::string_view of_a_case[] = {"name", "geometry", "schema"};
+
+}  // namespace
+
+bool describes_study(const toml::table& root) { return !has_any(root, of_a_case) && has_any(root, of_a_study); }
+bool describes_case(const toml::table& root) { return has_any(root, of_a_case) && !has_any(root, of_a_study); }
 
 }  // namespace puffin::cases::format

@@ -15,4 +15,9 @@ std::string read_text(const std::filesystem::path& file);
 /// Throws CaseError with the place of the first syntax error.
 toml::table parse_toml(std::string_view text, const std::string& file);
 
+/// A study has cases, sweeps or replicates and no device of its own; a case has a name and a device, of its own or of
+/// its base.
+bool describes_study(const toml::table& root);
+bool describes_case(const toml::table& root);
+
 }  // namespace puffin::cases::format

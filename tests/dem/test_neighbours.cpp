@@ -65,5 +65,48 @@ TEST(Neighbours, of_a_carrier_that_is_no_number_are_none_and_the_others_keep_the
     }
 }
 
+// Evenly spread carriers: 2,000 of radius 1 in a box of 100, budget 5, so each has (4/3) pi 12^3 2000/100^3 = 14.5
+// neighbours less what lies outside of the box, a sixth to a third. The estimate counts whole spheres and the carrier
+// itself; cells of 12 hold 3.5 on average, and one more where the carrier is: (3.5 + 1)/3.5 of 14.5 = 18.6.
+TEST(Neighbours, are_about_as_many_as_expected) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> place(0.0, 100.0);
+  Carriers carriers;
+  Neighbours neighbours;
+  std::vector<std::int32_t> all;
+  for (int i = 0; i < 2000; ++i) {
+    carriers.position.emplace_back(place(random), place(random), place(random));
+    carriers.id.push_back(i);
+    carriers.radius.push_back(1.0);
+    neighbours.budget.push_back(5.0);
+    all.push_back(i);
+  }
+  build(carriers, neighbours);
+  const double listed = static_cast<double>(neighbours.list.size()) / 2000.0;
+  const double expected = expected_neighbours(carriers, neighbours.budget, all);
+  EXPECT_GT(listed, 14.5 * 2.0 / 3.0);
+  EXPECT_LT(listed, 14.5);
+  EXPECT_NEAR(expected, 18.6, 0.1 * 18.6);
+  EXPECT_EQ(expected_neighbours(carriers, neighbours.budget, {}), 0.0);
+}
+
+// Fines of 2.9 um at 30 m/s fly 34 diameters in a step of 3.3 us. A list for eight such steps would hold all 4,000 of
+// this cloud for each of them (1.1 millimetres of reach in a box of 1.6); one for a single step holds those within
+// 2 * 1.1 * 99 um: (4/3) pi 0.22^3 4000/1.6^3 = 44.
+TEST(Neighbours, of_fast_fines_are_those_of_one_step) {
+  testing::Scene s;
+  s.walls = testing::PlaneWalls::box(10e-3);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> place(4e-3, 5.6e-3), part(-1.0, 1.0);
+  for (int i = 0; i < 4000; ++i) {
+    const Eigen::Vector3d way(part(random), part(random), part(random));
+    s.add(testing::lactose(i, {place(random), place(random), place(random)}, 30.0 * way.normalized(), 1.45e-6));
+  }
+  s.run(3.3e-6, 3.3e-6);
+  const double listed = static_cast<double>(s.state.neighbours.list.size()) / 4000.0;
+  EXPECT_LT(listed, 50.0);
+  EXPECT_GT(listed, 20.0);
+}
+
 }  // namespace
 }  // namespace puffin::dem

@@ -148,7 +148,7 @@ void compare_with_reference(Summary& summary, const std::vector<ReferenceValue>&
 /// status.json while a run goes on.
 struct Status {
   std::string name;
-  std::string state;  // running | finished | diverged | stopped
+  std::string state;  // running | finished | diverged | stopped | failed
   std::string phase;
   double simulated_time = 0.0, end_time = 0.0;  // [s]
   std::int64_t steps = 0;

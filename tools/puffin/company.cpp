@@ -14,7 +14,6 @@
 #include "coupling/advance_together.hpp"
 #include "coupling/health.hpp"
 #include "tools/output/report.hpp"
-#include "tools/output/report/live_page.hpp"
 #include "tools/puffin/console.hpp"
 #include "tools/puffin/exit_codes.hpp"
 #include "tools/puffin/finished.hpp"
@@ -117,6 +116,17 @@ class Company {
     const std::vector<std::string> warnings = first_warnings(*p.simulation);
     p.folder = std::make_unique<output::OutputFolder>(given.out, c.name);
     announce(*p.folder, c);
+    try {
+      begin_in_folder(p, c, warnings);
+    } catch (const std::exception&) {
+      close_failed(*p.folder, {});
+      throw;
+    }
+    p.set_up = seconds_since(begin);
+    all_.push_back(std::move(p));
+  }
+
+  void begin_in_folder(Population& p, const cases::Case& c, const std::vector<std::string>& warnings) {
     const LogToFile log(p.folder->file("log.txt"));
     for (const std::string& text : warnings) log_warning(c.name + ": " + text);
     keep_case(c, *p.folder);
@@ -131,8 +141,6 @@ class Company {
       p.simulation->lattice_speed = all_.front().simulation->lattice_speed;
       log_info("its air is that of " + all_.front().name());
     }
-    p.set_up = seconds_since(begin);
-    all_.push_back(std::move(p));
   }
 
   void step() {
@@ -198,27 +206,18 @@ class Company {
       const LogToFile log(p.folder->file("log.txt"));
       if (!message.empty()) log_error(p.name() + ": " + message);
       if (state == "failed")
-        set_state(p, state);
+        close_failed(*p.folder, p.recorder->history());
       else
         with_air(p, [&] { write_end(p, state, message); });
     } catch (const std::exception& e) {
       if (code == ok) code = exit_code(e), message = e.what();
       log_error(p.name() + ": " + e.what());
+      close_failed(*p.folder, p.recorder->history());
     }
     p.state().carriers = {};
     p.state().scalars = {};
     if (state == "stopped") return;
     book({p.out, code, message});
-  }
-
-  /// wall_clock: of summary.json [s]; 0: as it stands.
-  static void set_state(Population& p, const std::string& state, double wall_clock = 0.0) {
-    output::Status last = output::read_status(p.folder->file("status.json"));
-    last.state = state;
-    if (wall_clock > 0.0) last.wall_clock = wall_clock;
-    if (state == "finished") last.eta = 0.0;
-    output::write_status(p.folder->file("status.json"), last);
-    output::write_whole(p.folder->file("index.html"), output::live_page(last, p.recorder->history()));
   }
 
   void write_end(Population& p, const std::string& state, const std::string& message) {
@@ -242,7 +241,7 @@ class Company {
     output::Summary summary = summarize(*p.simulation, *p.recorder, facts);
     summary.assumptions.push_back("carriers: they do not act on the air, whose flow this run shares with others");
     output::write_summary(p.folder->file("summary.json"), summary);
-    set_state(p, state, facts.wall_clock);
+    close_status(*p.folder, state, p.recorder->history(), facts.wall_clock);
     if (state == "stopped") return;
     try {
       output::write_whole(p.folder->path() / "report.html", output::make_report(p.folder->path()));

@@ -68,6 +68,7 @@ std::string unknown_word(const CLI::App& app, const std::vector<std::string>& na
   }
   std::vector<std::string> known;
   for (const CLI::App* sub : app.get_subcommand(first)->get_subcommands({})) known.push_back(sub->get_name());
+  if (!known.empty() && argc == 2) return "'puffin " + first + "' needs one of " + cases::join(known);
   if (known.empty() || !unknown(second, known)) return "";
   return "unknown word '" + second + "' after 'puffin " + first + "'" + cases::did_you_mean_or_known(second, known);
 }

@@ -112,11 +112,8 @@ int plan(const CaseArguments& a) {
   return ok;
 }
 
-/// A study file has cases, sweeps or replicates, and no device of its own.
 bool is_study(const std::filesystem::path& file) {
-  const toml::table root = cases::format::parse_toml(cases::format::read_text(file), file.string());
-  if (root.contains("geometry") || root.contains("name")) return false;
-  return root.contains("case") || root.contains("sweep") || root.contains("replicates") || root.contains("share");
+  return cases::format::describes_study(cases::format::parse_toml(cases::format::read_text(file), file.string()));
 }
 
 int plan_study(const CaseArguments& a) {

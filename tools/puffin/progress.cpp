@@ -91,4 +91,19 @@ void announce(const output::OutputFolder& folder, const cases::Case& c) {
   output::write_status(folder.file("status.json"), status);
 }
 
+void close_status(const output::OutputFolder& folder, const std::string& state,
+                  const std::vector<output::HistoryRow>& history, double wall_clock) {
+  output::Status last = output::read_status(folder.file("status.json"));
+  last.state = state;
+  if (wall_clock > 0.0) last.wall_clock = wall_clock;
+  if (state == "finished") last.eta = 0.0;
+  output::write_status(folder.file("status.json"), last);
+  output::write_whole(folder.file("index.html"), output::live_page(last, history));
+}
+
+void close_failed(const output::OutputFolder& folder, const std::vector<output::HistoryRow>& history) noexcept try {
+  close_status(folder, "failed", history);
+} catch (const std::exception&) {  // what ended the run is told by whoever caught it
+}
+
 }  // namespace puffin::tools

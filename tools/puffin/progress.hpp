@@ -34,4 +34,12 @@ class Progress {
 /// status.json of a run that has only just got its folder, so that what follows is known to be a run.
 void announce(const output::OutputFolder& folder, const cases::Case& c);
 
+/// How the run ended, in status.json and on its page. wall_clock: of summary.json [s]; 0: as it stands. state
+/// "finished" leaves nothing to go.
+void close_status(const output::OutputFolder& folder, const std::string& state,
+                  const std::vector<output::HistoryRow>& history, double wall_clock = 0.0);
+
+/// The same for a run that an exception ends, as far as it can still be written: on a full disk it cannot.
+void close_failed(const output::OutputFolder& folder, const std::vector<output::HistoryRow>& history) noexcept;
+
 }  // namespace puffin::tools

@@ -10,11 +10,11 @@
 #include <thread>
 
 #include "cases/write_case.hpp"
-#include "tools/output/render.hpp"
 #include "tools/output/report.hpp"
 #include "tools/puffin/console.hpp"
 #include "tools/puffin/exit_codes.hpp"
 #include "tools/puffin/opening.hpp"
+#include "tools/puffin/progress.hpp"
 #include "tools/puffin/stepping.hpp"
 #include "tools/puffin/summarize.hpp"
 #include "tools/puffin/thread_limit.hpp"
@@ -33,26 +33,12 @@ void make_pictures_and_report(const std::filesystem::path& run, bool quiet) {
   }
 }
 
-/// The run on the threads of the arena that it is called in.
-int run_here(const RunOptions& options, cases::Case c, int threads, std::chrono::steady_clock::time_point start) {
-  const auto seconds = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
-  const auto simulation = built(c, options.case_file, options.beds);
-  cases::Simulation& s = *simulation;
-  // Only now: the reference speed, and with it the time step, belong to the whole run that the case describes.
-  c.stop.time = std::min(c.stop.time, options.until);
-  for (const std::string& text : first_warnings(s)) log_warning(text);
-  const auto out = options.out.empty() ? std::nullopt : std::optional(options.out);
-  const output::OutputFolder folder(out, c.name, options.resume);
-  announce(folder, c);
-  log_to_file(folder.file("log.txt"));
-  if (options.resume && !folder.resumed())
-    log_warning(folder.path().string() + " was killed before its first checkpoint: the run begins anew");
-  keep_case(c, folder);
-  log_beginning(s, threads, folder.path());
-  RunFacts facts;
-  facts.threads = threads;
-  facts.set_up = seconds();
+using Clock = std::chrono::steady_clock;
 
+/// The run in its folder, whose log.txt is open.
+int run_in(const output::OutputFolder& folder, const RunOptions& options, cases::Simulation& s, RunFacts& facts,
+           Clock::time_point start) {
+  const auto seconds = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
   Stepping stepping(s, folder, options.quiet, start, options.walltime, options.until);
   const Ending ending = stepping.run();
   stepping.finish(ending);
@@ -64,6 +50,7 @@ int run_here(const RunOptions& options, cases::Case c, int threads, std::chrono:
   facts.wall_clock = stepping.memory().wall_clock + seconds();
   const output::Summary summary = summarize(s, stepping.recorder(), facts);
   output::write_summary(folder.file("summary.json"), summary);
+  close_status(folder, facts.state, stepping.recorder().history(), facts.wall_clock);
   if (options.report && ending.code != stopped && ending.code != interrupted)
     make_pictures_and_report(folder.path(), options.quiet);
   if (ending.code == diverged) log_error(ending.message);
@@ -71,19 +58,40 @@ int run_here(const RunOptions& options, cases::Case c, int threads, std::chrono:
     log_info("ended at --until " + as_time(options.until) + "; --resume goes on to the stop time of the case");
   if (ending.code == stopped || ending.code == interrupted)
     log_info(ending.message + " at t = " + as_time(s.state.time) + "; --resume goes on from here");
-  output::Status last = output::read_status(folder.file("status.json"));
-  last.state = facts.state;
-  last.wall_clock = facts.wall_clock;
-  if (ending.code == ok) last.eta = 0.0;
-  output::write_status(folder.file("status.json"), last);
   if (options.json) print(output::summary_json(summary));
   return ending.code;
+}
+
+/// The run on the threads of the arena that it is called in.
+int run_here(const RunOptions& options, cases::Case c, int threads, Clock::time_point start) {
+  const auto simulation = built(c, options.case_file, options.beds);
+  cases::Simulation& s = *simulation;
+  // Only now: the reference speed, and with it the time step, belong to the whole run that the case describes.
+  c.stop.time = std::min(c.stop.time, options.until);
+  for (const std::string& text : first_warnings(s)) log_warning(text);
+  const auto out = options.out.empty() ? std::nullopt : std::optional(options.out);
+  const output::OutputFolder folder(out, c.name, options.resume);
+  announce(folder, c);
+  log_to_file(folder.file("log.txt"));
+  try {
+    if (options.resume && !folder.resumed())
+      log_warning(folder.path().string() + " was killed before its first checkpoint: the run begins anew");
+    keep_case(c, folder);
+    log_beginning(s, threads, folder.path());
+    RunFacts facts;
+    facts.threads = threads;
+    facts.set_up = std::chrono::duration<double>(Clock::now() - start).count();
+    return run_in(folder, options, s, facts, start);
+  } catch (const std::exception&) {
+    close_failed(folder, {});
+    throw;
+  }
 }
 
 }  // namespace
 
 int run_command(const RunOptions& options) {
-  const auto start = std::chrono::steady_clock::now();
+  const auto start = Clock::now();
   _mm_setcsr(_mm_getcsr() | 0x8040);  // flush denormals: air at rest would otherwise compute with them
   set_up_log(options.quiet);
   cases::Case c = cases::read_case(options.case_file, options.sets, options.preset);

@@ -5,7 +5,6 @@
 #include <csignal>
 #include <stdexcept>
 
-#include "tools/output/report/live_page.hpp"
 #include "tools/puffin/console.hpp"
 #include "tools/puffin/exit_codes.hpp"
 #include "tools/puffin/finished.hpp"
@@ -191,10 +190,6 @@ void Stepping::finish(const Ending& ending) {
   progress_->finish();
   for (std::size_t n = told; n < memory_.warnings.size(); ++n) log_warning(memory_.warnings[n]);
   if (ending.code == ok && !ending.goes_on) recorder_->forget_journal();
-  output::Status last = output::read_status(folder_.file("status.json"));
-  last.state = ending.state;
-  output::write_status(folder_.file("status.json"), last);
-  output::write_whole(folder_.file("index.html"), output::live_page(last, recorder_->history()));
 }
 
 }  // namespace puffin::tools

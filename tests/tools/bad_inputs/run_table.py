@@ -15,7 +15,7 @@ input's files. The program then
 memory, and without the inputs that need that limit (`limited = true`).
 
 Keys of an [[input]]: what, exit, message, and any of: replace (list of [old, new] in the base), append, case (instead
-of the base), files (name -> text, or { hex = "..." } or { repeat = "text", times = n }), arguments (default: check
+of the base), files (name -> text, or { hex = "..." } or { repeat = "text", times = n }, or a list of these), arguments (default: check
 case.toml), environment, leaves, on_stdout (the message is a result: that of plan), limited, setup (shell commands run before in
 the folder).
 """
@@ -39,6 +39,8 @@ HERE = Path(__file__).resolve().parent
 def content(value) -> bytes:
     if isinstance(value, str):
         return value.encode()
+    if isinstance(value, list):
+        return b"".join(map(content, value))
     if "hex" in value:
         return bytes.fromhex(value["hex"])
     return value.get("head", "").encode() + value["repeat"].encode() * value["times"] + value.get("tail", "").encode()

@@ -70,6 +70,18 @@ TEST_F(BatchStudy, AKilledBatchGoesOnWithoutRedoingWhatIsFinished) {
   EXPECT_EQ(book.find("\"attempts\": 2"), book.rfind("\"attempts\": 2")) << "the long run alone";
 }
 
+// The run of 40 s of air is shot as soon as its status is there, half a minute later at the latest.
+TEST_F(BatchStudy, ARunThatASignalEndsIsBookedWithItsName) {
+  file("study.toml", "base = \"case.toml\"\n[[case]]\nname = \"shot\"\nset = { \"stop.time\" = \"40 s\" }\n");
+  EXPECT_EQ(shell("{ " + std::string(PUFFIN_BINARY_DIR) +
+                  "/puffin batch study.toml --out out > /dev/null 2> log.txt & batch=$!; "
+                  "for n in $(seq 600); do grep -qs running out/shot/seed-1/status.json && break; sleep 0.05; done; "
+                  "pkill -KILL -P $batch; wait $batch; }"),
+            8)
+      << text("log.txt");
+  EXPECT_NE(text("out/study.json").find("ended by signal 9 (Killed)"), std::string::npos) << text("out/study.json");
+}
+
 TEST_F(BatchStudy, AFinishedRunOfAnotherCaseIsNeverTakenForThisOne) {
   file("study.toml", "base = \"case.toml\"\n[[case]]\nname = \"a\"\n");
   ASSERT_EQ(batch(""), 0) << text("log.txt");

@@ -147,4 +147,17 @@ TEST_F(RunHealth, ACarrierWithFinesFasterThanAnyAirIsFoundWithin100Steps) {
       0.0, 0.0);
 }
 
+// A disk on which no file may be larger than 4 kB takes status.json and log.txt, but no checkpoint and no stats.h5.
+TEST_F(RunHealth, ARunThatCanWriteNoMoreEndsWith7AndItsStatusSaysFailed) {
+  const std::string command = std::string(PUFFIN_BINARY_DIR) + "/puffin run " + (folder_ / "case.toml").string() +
+                              " --set stop.time=0.1ms --no-report --out " + (folder_ / "out").string() +
+                              " >/dev/null 2>&1";
+  EXPECT_EQ(WEXITSTATUS(std::system(("bash -c \"trap '' XFSZ; ulimit -f 4; " + command + "\"").c_str())), 7);
+  EXPECT_EQ(output::read_status(folder_ / "out" / "status.json").state, "failed");
+  EXPECT_NE(text("out/index.html").find("log.txt"), std::string::npos);
+  EXPECT_EQ(text("out/index.html").find("http-equiv=\"refresh\""), std::string::npos) << "it does not wait for more";
+  ASSERT_EQ(run("out", "--resume --set stop.time=0.1ms --no-report"), 0) << "with room again it is run";
+  EXPECT_EQ(output::read_status(folder_ / "out" / "status.json").state, "finished");
+}
+
 }  // namespace

@@ -101,4 +101,21 @@ TEST_F(BatchStudy, OfASharedFlowEachCaseWarnsAsAloneAndHasItsLog) {
   }
 }
 
+// No file may be larger than 8 kB: stats.h5 is, the study's own files are not.
+TEST_F(BatchStudy, CasesOfASharedFlowThatCannotBeWrittenSayFailed) {
+  file("case.toml", towards_the_floor);
+  file("study.toml",
+       "base = \"case.toml\"\nshare = [\"one-way-flow\"]\n[[case]]\nname = \"a\"\n[[case]]\nname = \"b\"\n");
+  EXPECT_EQ(shell("bash -c \"trap '' XFSZ; ulimit -f 8; " + std::string(PUFFIN_BINARY_DIR) +
+                  "/puffin batch study.toml --out out --jobs 1 --threads 1\" > /dev/null 2> log.txt"),
+            8)
+      << text("log.txt");
+  const output::StudyResults results = output::read_study_results(folder_ / "out");
+  ASSERT_EQ(results.cases.size(), 2U);
+  for (const auto& c : results.cases) {
+    EXPECT_EQ(c.runs[0].exit_code, 7) << c.runs[0].message;
+    EXPECT_EQ(output::read_status(folder_ / "out" / c.name / "seed-1" / "status.json").state, "failed");
+  }
+}
+
 }  // namespace

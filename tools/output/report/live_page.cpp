@@ -64,7 +64,9 @@ std::string live_page(const Status& s, const std::vector<HistoryRow>& history) {
   if (s.ledger_error) body += tile(significant(std::abs(*s.ledger_error), 2), "error of the fines' ledger");
   body += "</div>\n";
   for (const std::string& warning : s.warnings) body += "<div class=alarm>" + escaped(warning) + "</div>\n";
-  if (!running) body += "<p>The results: <a href=\"report.html\">report.html</a></p>\n";
+  const bool reported = s.state == "finished" || s.state == "diverged";
+  if (reported) body += "<p>The results: <a href=\"report.html\">report.html</a></p>\n";
+  if (!running && !reported) body += "<p>Why: <a href=\"log.txt\">log.txt</a></p>\n";
   std::string html = page(s.name, body + curves(history));
   if (const auto at = html.find("<head>"); running && at != std::string::npos)
     html.insert(at + 6, "\n<meta http-equiv=\"refresh\" content=\"3\">");

@@ -93,15 +93,16 @@ std::string outcomes(const StudyResults& results) {
              "Mean with the half width of its 95 % interval where there are replicates; in brackets: the thesis.");
 }
 
-/// A column over the run's history; of a run that cases share, the values of this case's own scalar where stats.h5 has
-/// them.
+/// A column over the run's history; of a run that cases share, the values of this case's own scalar. None where
+/// stats.h5 does not have them (an earlier program's run, a damaged file): history.csv has those of another case.
 std::vector<double> column_of(const StudyRun& run, const fs::path& folder, const std::string& column,
                               const CsvTable& history) {
-  if (!run.scalar.empty()) try {
-      return read_stats(folder / "stats.h5", column + "_" + run.scalar);
-    } catch (const OutputError&) {  // an earlier program's run, or a damaged file
-    }
-  return history.numbers(column);
+  if (run.scalar.empty() || !column.starts_with("FF")) return history.numbers(column);
+  try {
+    return read_stats(folder / "stats.h5", column + "_" + run.scalar);
+  } catch (const OutputError&) {
+    return {};
+  }
 }
 
 /// Curves of one column of the first finished run of every case.
