@@ -177,4 +177,23 @@ FinesModels read_micromodels(const std::filesystem::path& file) {
   return models;
 }
 
+std::string micromodels_with_tables(const std::filesystem::path& file) {
+  std::string all = format::read_text(file);
+  const toml::table root = format::parse_toml(all, file.string());
+  for (const auto& [mechanism, node] : root) {
+    const auto name = node.is_table() ? node.as_table()->get_as<std::string>("file") : nullptr;
+    if (!name) continue;
+    std::string table;
+    try {
+      table = format::read_text(file.parent_path() / name->get());
+    } catch (const std::exception&) {  // read_micromodels says what is wrong with it
+      continue;
+    }
+    all += "\n# " + name->get() + "\n";
+    std::istringstream lines(table);
+    for (std::string line; std::getline(lines, line);) all += "# " + line + "\n";
+  }
+  return all;
+}
+
 }  // namespace puffin::cases

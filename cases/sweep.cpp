@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t most_points = 100000;
 
 std::string text_between(const SweepRange& r, double part) {
-  const double value = r.numbers[0] + part * (r.numbers[1] - r.numbers[0]);
+  const double value = std::lerp(r.numbers[0], r.numbers[1], part);  // the ends themselves at 0 and 1
   return r.whole ? std::to_string(std::llround(value)) : shortest(value);
 }
 

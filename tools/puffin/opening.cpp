@@ -5,6 +5,7 @@
 
 #include "cases/case_error.hpp"
 #include "cases/check_places.hpp"
+#include "cases/micromodel_file.hpp"
 #include "cases/write_case.hpp"
 #include "tools/puffin/available_memory.hpp"
 #include "tools/puffin/console.hpp"
@@ -30,7 +31,7 @@ std::vector<std::string> first_warnings(const cases::Simulation& s) {
 void keep_case(const cases::Case& c, const output::OutputFolder& folder) {
   folder.write_text("case.toml", cases::write_resolved(c));
   if (c.fines && !c.fines->micromodels.empty())
-    folder.write_text("micromodels.toml", output::read_whole(c.fines->micromodels));
+    folder.write_text("micromodels.toml", cases::micromodels_with_tables(c.fines->micromodels));
 }
 
 void log_beginning(const cases::Simulation& s, int threads, const std::filesystem::path& out) {

@@ -113,6 +113,19 @@ TEST_F(BatchStudy, ChangedLawsAreNotThoseOfTheFinishedRun) {
   EXPECT_NE(text("log.txt").find("with other laws than its micro-model file has now"), std::string::npos);
 }
 
+TEST_F(BatchStudy, AChangedTableOfALawIsNotThatOfTheFinishedRun) {
+  file("case.toml", fall);
+  file("sound.toml", "label = \"given\"\n[wall_detach]\nlaw = \"table\"\nfile = \"t.csv\"\n");
+  file("t.csv", "speed,fraction\n0,0\n10,0.5\n");
+  file("study.toml", "base = \"case.toml\"\n[[case]]\nname = \"a\"\n");
+  ASSERT_EQ(batch(""), 0) << text("log.txt");
+  EXPECT_EQ(batch(""), 0) << "nothing has changed";
+  EXPECT_NE(text("out/a/seed-1/micromodels.toml").find("\n# t.csv\n# speed,fraction\n# 0,0\n"), std::string::npos);
+  file("t.csv", "speed,fraction\n0,0\n10,0.6\n");
+  EXPECT_EQ(batch(""), 7);
+  EXPECT_NE(text("log.txt").find("with other laws than its micro-model file has now"), std::string::npos);
+}
+
 TEST_F(BatchStudy, ACaseThatCannotBeReplayedHasFailed) {
   file("case.toml", fall);
   file("sound.toml", some_laws);

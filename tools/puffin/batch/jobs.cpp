@@ -65,7 +65,7 @@ Candidate candidate(const cases::Study& study, std::size_t which, int replicate,
     c.described = cases::read_study_case(asked, replicate, preset);
     if (const auto& fines = c.described->fines; fines && !fines->micromodels.empty()) {
       cases::read_micromodels(fines->micromodels);  // its mistakes are this case's, whoever it shares a run with
-      c.job.laws = output::read_whole(fines->micromodels);
+      c.job.laws = cases::micromodels_with_tables(fines->micromodels);
     }
     c.job.sets = cases::overrides_of(asked, replicate);
     c.job.resolved = cases::write_resolved(*c.described);
