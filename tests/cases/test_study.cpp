@@ -121,6 +121,9 @@ TEST(Sweep, WholeNumbersStayWholeAndLevelsAreEvenlySpread) {
   const std::vector<SweepRange> ranges{{"count", {"100", "200"}, {100, 200}, true}};
   const auto points = sweep_points(SweepMethod::factorial, ranges, 3, 1);
   EXPECT_EQ(points, (std::vector<std::vector<std::string>>{{"100"}, {"150"}, {"200"}}));
+  // 0.3 + (0.9 - 0.3) is 0.9000000000000001 in doubles.
+  const auto ends = sweep_points(SweepMethod::factorial, {{"friction", {"0.3", "0.9"}, {0.3, 0.9}, false}}, 2, 1);
+  EXPECT_EQ(ends, (std::vector<std::vector<std::string>>{{"0.3"}, {"0.9"}}));
 }
 
 TEST_F(StudyFile, MistakesAreFoundAtTheirPlace) {
