@@ -41,9 +41,9 @@ std::function<Vec3(const Vec3&)> frozen_air(const Simulation& s) {
   return [field](const Vec3& x) -> Vec3 {
     if (const auto* u = std::get_if<UniformField>(&field)) return u->velocity;
     if (const auto* u = std::get_if<ShearField>(&field))
-      return u->velocity + u->gradient * u->normal.dot(x) * u->direction;
+      return u->velocity + u->gradient * u->normal.normalized().dot(x) * u->direction.normalized();
     const auto& u = std::get<SolidBodyField>(field);
-    return u.omega * u.axis.cross(x - u.center);
+    return u.omega * u.axis.normalized().cross(x - u.center);
   };
 }
 
@@ -132,6 +132,25 @@ void build_lattice(const LatticeNumbers& numbers, Simulation& s) {
   s.state.spreader = coupling::Spreader(s.state.air->rows.slots());
 }
 
+/// Patches without a boundary through which a frozen field passes, as carriers do (is_opening in build_carriers.cpp):
+/// closed, the cells beside them would be emptied or filled by it.
+void open_patches(Case& c, const Surface& surface) {
+  for (const std::string& name : surface.patches.names) {
+    const bool tagged = std::any_of(c.geometry.patches.begin(), c.geometry.patches.end(),
+                                    [&](const Patch& p) { return p.name == name; });
+    const bool closed = name == "wall" || name == "pocket" || name == "obstacle";
+    const bool said = std::any_of(c.air.boundaries.begin(), c.air.boundaries.end(),
+                                  [&](const Boundary& b) { return b.patch == name || b.with == name; });
+    if (said || closed || !(tagged || name == "inlet" || name == "outlet")) continue;
+    if (c.carriers && c.carriers->fill)
+      if (const auto* at = std::get_if<std::string>(&c.carriers->fill->at); at != nullptr && *at == name) continue;
+    Boundary open;
+    open.patch = name;
+    open.type = BoundaryType::pressure_outlet;
+    c.air.boundaries.push_back(open);
+  }
+}
+
 /// Cells in which fines are carried by a field that does not change; nothing is collided or streamed there.
 void build_frozen_cells(Simulation& s) {
   const Case& c = s.description;
@@ -153,6 +172,7 @@ void build_frozen_cells(Simulation& s) {
   if (c.numerics.time_step == TimeStepRule::given) rule.reference_dt = c.numerics.time_step_seconds;
   LatticeNumbers numbers;
   numbers.dt = rule.reference_dt;
+  open_patches(s.description, s.surface);
   build_lattice(numbers, s);
   const double unit = s.state.scale.dt / s.dx;
   lbm::set_cells(
@@ -217,8 +237,7 @@ void build_air(Simulation& s) {
     s.reference_speed = estimate.value;
     if (!estimate.warning.empty()) s.warnings.push_back(estimate.warning);
   }
-  if (!(s.reference_speed > 0.0))
-    throw std::invalid_argument("nothing sets the speed of the air: give numerics.reference_speed, e.g. \"1 m/s\"");
+  if (!(s.reference_speed > 0.0)) throw std::invalid_argument(no_speed);
   const LatticeSpeed tamed = lattice_speed(c, s.surface, s.reference_speed);
   if (!tamed.warning.empty()) s.warnings.push_back(tamed.warning);
   Case suited = c;

@@ -14,7 +14,7 @@ struct UniformField {
   Vec3 velocity = Vec3::Zero();  // [m/s]
   bool operator==(const UniformField&) const = default;
 };
-struct ShearField {  // u(x) = velocity + gradient * (normal . x) * direction
+struct ShearField {  // u(x) = velocity + gradient * (n . x) d, n and d of length one along normal and direction
   Vec3 velocity = Vec3::Zero();
   double gradient = 0.0;  // [1/s]
   Vec3 direction = Vec3::UnitX(), normal = Vec3::UnitZ();

@@ -65,7 +65,15 @@ std::vector<Problem> output_place_problems(const Case& c, const lbm::geometry::T
 
 std::vector<std::string> carrier_place_warnings(const Case& c, const lbm::geometry::TriangleTree& tree) {
   std::vector<std::string> warnings;
-  if (!c.carriers || c.carriers->list.empty()) return warnings;
+  if (!c.carriers) return warnings;
+  for (const Boundary& b : c.air.boundaries) {
+    if (b.type == BoundaryType::periodic)
+      warnings.push_back("carriers bounce off the periodic patch '" + b.patch + "': only the air goes on behind it");
+    if (b.type == BoundaryType::moving_wall)
+      warnings.push_back("carriers meet the moving wall '" + b.patch +
+                         "' as one at rest: only the air is dragged along");
+  }
+  if (c.carriers->list.empty()) return warnings;
   const std::vector<ListedCarrier>& list = c.carriers->list;
   const auto radius = [&](std::size_t i) { return 0.5 * parcel_diameter(list[i].diameter, c.carriers->parcel); };
   const auto say = [&](std::size_t i, double depth, const std::string& where) {

@@ -19,6 +19,7 @@ constexpr double longest = 0.3;  // [s]
 constexpr double step = 2e-5;    // [s] between two looks at the whole bed
 constexpr double still = 2e-3;   // [m/s] such a speed carries a sphere 0.2 um high
 constexpr int looks = 100;       // that must find the whole bed still
+constexpr double falls = 5.0;    // times a sphere needs to fall by its diameter: before, still means not yet fast
 
 /// Soft, damped, without adhesion; friction as given, and enough rolling resistance for a heap to stand.
 dem::Surfaces soft(const dem::Surfaces& surfaces) {
@@ -54,13 +55,16 @@ SettledBed settle(dem::Models models, const dem::Walls& walls, const std::vector
   dem::Events events;
   SettledBed bed;
   int found_still = 0;
-  while (!bed.at_rest && state.time < longest) {
+  double diameter = 0.0;
+  for (const auto& c : carriers) diameter = std::max(diameter, 2.0 * c.radius);
+  const double earliest = falls * std::sqrt(2.0 * diameter / models.gravity.norm());
+  while (!bed.at_rest && state.time < longest + earliest) {
     dem::advance(step, models, walls, loads, state, events);
     events.clear();
     double fastest = 0.0;
     for (const Vec3& v : state.carriers.velocity) fastest = std::max(fastest, v.norm());
     found_still = fastest < still ? found_still + 1 : 0;
-    bed.at_rest = found_still >= looks || dem::count_asleep(state) == carriers.size();
+    bed.at_rest = (found_still >= looks && state.time > earliest) || dem::count_asleep(state) == carriers.size();
   }
   bed.positions = state.carriers.position;
   bed.time = state.time;

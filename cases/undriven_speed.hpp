@@ -23,4 +23,8 @@ struct EstimatedSpeed {
 /// lattice) with bends and for forces that swing quickly. Throws std::invalid_argument for files that cannot be used.
 EstimatedSpeed estimated_speed(const Case& c, const Surface& surface);
 
+/// What is said of a case whose air nothing moves.
+inline constexpr const char* no_speed =
+    "nothing sets the speed of the air: give numerics.reference_speed, e.g. \"1 m/s\"";
+
 }  // namespace puffin::cases

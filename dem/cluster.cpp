@@ -259,8 +259,11 @@ void Motion::run() {
     const bool flies = !live_;
     double h = std::min(remaining, look_);
     if (flies) {
+      const double most = h;
       h = time_of_flight(h);
       fly(h);
+      if (h < most)  // one of those that were left alone, as nothing was fast, may be the one that is met
+        for (Springs& block : c.springs) block.idle_until = 0.0;
     } else {
       h = std::min(h, step_);
       h = remaining / std::ceil(remaining / h * (1.0 - 1e-12));

@@ -87,7 +87,8 @@ Look look_at(std::size_t index, const Substep& substep, const Rules& rules, cons
     return look;
   }
   // Even two of the fastest of the cluster need this long: if that is many sub-steps, leave it alone for half of it.
-  const double soonest = -m.overlap / (2.0 * cluster.fastest);
+  // Where all are at rest nothing is said by that: they may fall.
+  const double soonest = cluster.fastest > 0.0 ? -m.overlap / (2.0 * cluster.fastest) : 0.0;
   if (soonest > 4.0 * substep.horizon) {
     look.idle_until = substep.time + 0.5 * soonest;
     look.latest = substep.time + soonest;

@@ -92,7 +92,7 @@ void apply_exchange(Air& air, PoreSpace& pores) {
             for (int d = 0; d < 3; ++d) u[d] += d3q19::velocity[i][d] * g;
           }
           for (double& component : u) component /= rho;
-          const double before = pores.share[x], after = before + pores.rate[n];
+          const double before = pores.share[x], after = std::min(1.0, before + pores.rate[n]);  // not 1 + 2e-16
           const double gain = (before * rho + pores.excess[n]) / after - rho;
           for (int i = 0; i < d3q19::q; ++i) {
             T& g = p.arrived(run, x, i);

@@ -10,6 +10,12 @@ void refuse(Fields& io, std::string_view key, const std::string& what) {
   io.problem(key, what + " is not part of this version");
 }
 
+/// Only where it points is used, so it must point somewhere.
+void describe_direction(Fields& io, const char* key, Vec3& v) {
+  io.vector(key, v, unit::number, required);
+  if (io.reading() && v.isZero(0.0)) io.problem(key, "points nowhere: give a vector other than zero");
+}
+
 /// field = "uniform" | "shear" | "solid-body" with sibling keys, or a table { file } or { run, at }.
 void describe_frozen(Fields& io, FrozenField& field) {
   int kind = static_cast<int>(field.index());
@@ -38,10 +44,10 @@ void describe_frozen(Fields& io, FrozenField& field) {
   } else if (auto* shear = std::get_if<ShearField>(&field)) {
     io.vector("velocity", shear->velocity, unit::velocity, otherwise(Vec3(0, 0, 0)));
     io.number("gradient", shear->gradient, unit::rate, Range::any, required);
-    io.vector("direction", shear->direction, unit::number, required);
-    io.vector("normal", shear->normal, unit::number, required);
+    describe_direction(io, "direction", shear->direction);
+    describe_direction(io, "normal", shear->normal);
   } else if (auto* body = std::get_if<SolidBodyField>(&field)) {
-    io.vector("axis", body->axis, unit::number, required);
+    describe_direction(io, "axis", body->axis);
     io.vector("center", body->center, unit::length, otherwise(Vec3(0, 0, 0)));
     io.number("omega", body->omega, unit::angular_velocity, Range::any, required);
   }

@@ -76,9 +76,10 @@ void describe_contact(Fields& io, Contact& c, const Contact* base) {
   const auto elastic = [&](double Contact::*member) -> Fallback<double> {
     return base && base->*member > 0.0 ? derived(base->*member, as_carriers) : Fallback<double>{};
   };
-  if (hertz || io.has("youngs_modulus", c.youngs_modulus != 0.0))
+  const auto inherits = [&](double Contact::*member) { return base && base->*member > 0.0; };
+  if (hertz || inherits(&Contact::youngs_modulus) || io.has("youngs_modulus", c.youngs_modulus != 0.0))
     io.number("youngs_modulus", c.youngs_modulus, unit::pressure, Range::positive, elastic(&Contact::youngs_modulus));
-  if (hertz || io.has("poisson", c.poisson != 0.0))
+  if (hertz || inherits(&Contact::poisson) || io.has("poisson", c.poisson != 0.0))
     io.number("poisson", c.poisson, unit::number, Range::fraction, elastic(&Contact::poisson));
   if (c.poisson > 0.5) io.problem("poisson", "must be at most 0.5, the value of a body that keeps its volume");
   io.choice("on_wall", c.on_wall, or_as(base ? &base->on_wall : nullptr, OnWall::bounce));

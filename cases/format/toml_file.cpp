@@ -60,10 +60,11 @@ bool has_any(const toml::table& root, std::span<const std::string_view> keys) {
 }
 constexpr std::string_view of_a_study[] = {"case", "sweep", "replicates", "share"};
 constexpr std::string_view of_a_case[] = {"name", "geometry", "schema"};
+constexpr std::string_view of_a_device[] = {"geometry", "schema", "air"};
 
 }  // namespace
 
-bool describes_study(const toml::table& root) { return !has_any(root, of_a_case) && has_any(root, of_a_study); }
+bool describes_study(const toml::table& root) { return !has_any(root, of_a_device) && has_any(root, of_a_study); }
 bool describes_case(const toml::table& root) { return has_any(root, of_a_case) && !has_any(root, of_a_study); }
 
 }  // namespace puffin::cases::format

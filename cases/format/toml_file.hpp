@@ -15,8 +15,8 @@ std::string read_text(const std::filesystem::path& file);
 /// Throws CaseError with the place of the first syntax error.
 toml::table parse_toml(std::string_view text, const std::string& file);
 
-/// A study has cases, sweeps or replicates and no device of its own; a case has a name and a device, of its own or of
-/// its base.
+/// A study has cases, sweeps, replicates or things to share and no device of its own; a case has a name, a schema or a
+/// device and none of these.
 bool describes_study(const toml::table& root);
 bool describes_case(const toml::table& root);
 

@@ -91,7 +91,9 @@ SubStep plan_sub_step(const StepLimit& limit, const ScalarOptions& options, cons
   }
   const double pieces = std::ceil(remaining / p.steps * (1.0 - 1e-12));
   if (!(pieces < 1e4))
-    throw std::runtime_error("scalars: the air's mass fluxes would empty a cell; is the flow still sound?");
+    throw std::runtime_error(
+        "scalars: the air's mass fluxes would empty a cell: the flow is no longer sound, or a frozen field crosses a "
+        "closed patch");
   p.steps = remaining / std::max(pieces, 1.0);
   return p;
 }

@@ -67,6 +67,12 @@ TEST(CarrierKeys, MistakesNameTheirRemedy) {
   EXPECT_NE(
       joined(problems_of(sample, {{"carriers.adhesion.model", "\"jkr\""}})).find("give youngs_modulus and poisson"),
       std::string::npos);
+  // Walls have the carriers' elasticity unless told otherwise, whatever contact law stands beside the adhesion.
+  const Case jkr = parse(sample, {{"carriers.adhesion.model", "\"jkr\""},
+                                  {"carriers.contact.youngs_modulus", "\"24 GPa\""},
+                                  {"carriers.contact.poisson", "0.3"}});
+  EXPECT_EQ(jkr.carriers->wall_contact.youngs_modulus, 24e9);
+  EXPECT_EQ(jkr.carriers->wall_contact.poisson, 0.3);
   EXPECT_NE(joined(problems_of(sample, {{"carriers.contact.model", "\"hertz\""}})).find("youngs_modulus"),
             std::string::npos);
   EXPECT_NE(joined(problems_of(sample, {{"carriers.diameter",

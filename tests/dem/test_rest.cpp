@@ -132,6 +132,23 @@ TEST(Rest, AnImpactOnASleepingRowPassesItsMomentumOn) {
   EXPECT_GT(v[1][2].x(), 1.0);
 }
 
+// From rest 5 nm over the floor, which it reaches within the step, sqrt(2 5e-9/9.81) = 32 us: nothing is fast when it
+// is asked what may be met. It comes down by the gap and by what its weight presses it in, m g/k; missed, it would fall
+// on.
+TEST(Rest, ACarrierPutDownJustAboveTheFloorLandsOnIt) {
+  constexpr double gap = 5e-9;
+  Scene s;
+  s.models.gravity = {0.0, 0.0, -9.81};
+  s.law().stiffness = 10.0;
+  s.same_walls();
+  s.walls = PlaneWalls::floor();
+  s.add(lactose(0, {0.0, 0.0, 35e-6 + gap}));
+  s.run(5e-3, 5e-5);
+  const double sag = s.state.carriers.mass[0] * 9.81 / 10.0;  // 0.3 nm
+  EXPECT_NEAR(s.x(0)[2], 35e-6 - sag,
+              0.02 * sag);  // its bounces last 32 us (1 + 2 0.6/(1 - 0.6)) = 0.13 ms, then it swings in 35 us
+}
+
 // Static equilibrium is honest: a bed under half of the load that it can hold does not creep, awake or asleep.
 TEST(Rest, ABedUnderHalfItsLimitDoesNotCreep) {
   for (const bool sleep : {false, true}) {

@@ -111,22 +111,22 @@ Summary summary_of(const Json& json) {
     if (seconds.is_number()) s.phases.push_back({name, seconds.get<double>()});
   }
   for (const auto& item : part(json, "skipped")) s.skipped.push_back(read<SkippedWork>(item));
-  if (json.contains("pressure")) {
+  const std::vector<double> window = numbers(part(part(json, "pressure"), "window"));
+  if (window.size() == 2) {  // else there was no air between openings
     const Json& p = json["pressure"];
     s.pressure.emplace();
     s.pressure->static_drop = read<TimeMean>(part(p, "static_drop"));
     s.pressure->total_to_static_drop = read<TimeMean>(part(p, "total_to_static_drop"));
-    const std::vector<double> window = numbers(part(p, "window"));
-    if (window.size() == 2) s.pressure->window_begin = window[0], s.pressure->window_end = window[1];
+    s.pressure->window_begin = window[0], s.pressure->window_end = window[1];
   }
   for (const auto& [patch, item] : part(json, "forces").items()) {
     const std::vector<double> force = numbers(item);
     if (force.size() == 3) s.forces.push_back({patch, force[0], force[1], force[2]});
   }
   if (json.contains("air_mass")) s.air_mass = read<AirMass>(json["air_mass"]);
-  if (json.contains("carriers")) s.carriers = read<CarrierSummary>(json["carriers"]);
+  if (part(json, "carriers").value("count", 0.0) > 0.0) s.carriers = read<CarrierSummary>(json["carriers"]);
   s.fines = fines_of(json);
-  if (json.contains("collisions")) s.collisions = read<CollisionSummary>(json["collisions"]);
+  if (s.carriers && json.contains("collisions")) s.collisions = read<CollisionSummary>(json["collisions"]);
   for (const auto& text : part(json, "warnings")) s.warnings.push_back(text.get<std::string>());
   for (const auto& text : part(json, "assumptions")) s.assumptions.push_back(text.get<std::string>());
   for (const auto& row : part(json, "reference")) s.reference.push_back(read<ReferenceRow>(row));
@@ -142,17 +142,18 @@ Json to_json(const Summary& s) {
   for (const auto& phase : s.phases) json["phases"][phase.name] = number(phase.seconds);
   json["skipped"] = Json::array();
   for (const auto& skip : s.skipped) json["skipped"].push_back(written(skip));
-  if (s.pressure) {
-    json["pressure"] = {{"static_drop", written(s.pressure->static_drop)},
-                        {"total_to_static_drop", written(s.pressure->total_to_static_drop)},
-                        {"window", {number(s.pressure->window_begin), number(s.pressure->window_end)}}};
-  }
+  // What the case does not have is there too, empty: readers need not ask for each key.
+  const PressureSummary pressure = s.pressure.value_or(PressureSummary{});
+  json["pressure"] = {
+      {"static_drop", written(pressure.static_drop)},
+      {"total_to_static_drop", written(pressure.total_to_static_drop)},
+      {"window", s.pressure ? Json{number(pressure.window_begin), number(pressure.window_end)} : Json(nullptr)}};
   json["forces"] = Json::object();
   for (const auto& f : s.forces) json["forces"][f.patch] = {number(f.fx), number(f.fy), number(f.fz)};
   if (s.air_mass) json["air_mass"] = written(*s.air_mass);
-  if (s.carriers) json["carriers"] = written(*s.carriers);
+  json["carriers"] = written(s.carriers.value_or(CarrierSummary{}));
   json["fines"] = written_fines(s.fines);
-  if (s.collisions) json["collisions"] = written(*s.collisions);
+  json["collisions"] = written(s.collisions.value_or(CollisionSummary{}));
   json["assumptions"] = s.assumptions;
   json["reference"] = Json::array();
   for (const auto& row : s.reference) json["reference"].push_back(written(row));

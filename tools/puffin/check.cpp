@@ -37,7 +37,10 @@ void check_places(const cases::Case& c, const cases::Surface& surface, cases::As
       problems.insert(problems.end(), e.problems.begin(), e.problems.end());
     }
   if (c.air.model != cases::AirModel::none) {
-    const double dx = assessment.lattice ? assessment.lattice->dx : cases::cell_size(c.numerics, surface.volume);
+    const bool cells = c.numerics.dx || c.numerics.cells;  // a frozen field without fines needs none
+    const double dx = assessment.lattice ? assessment.lattice->dx
+                      : cells            ? cases::cell_size(c.numerics, surface.volume)
+                                         : 0.0;
     for (auto& p : cases::output_place_problems(c, tree, dx)) problems.push_back(std::move(p));
   }
   if (!problems.empty()) throw cases::CaseError(std::move(problems));

@@ -84,6 +84,10 @@ PointReader::Mean PointReader::curved_mean(const cases::Simulation& s, const Vec
 }
 
 std::optional<PointReading> PointReader::read(const cases::Simulation& s, const Vec3& x) const {
+  if (s.models.frozen_air) {  // known everywhere in the device; it has no pressure
+    if (!s.tree->inside(x)) return std::nullopt;
+    return PointReading{s.models.frozen_air(x), 0.0};
+  }
   if (!s.state.air) return std::nullopt;
   const double dx = s.state.air->rows.dx();
   Mean mean = curved_mean(s, x);
@@ -125,7 +129,7 @@ std::optional<PointReading> PointReader::read(const cases::Simulation& s, const 
 
 std::vector<std::string> PointReader::check_places(const cases::Simulation& s) const {
   std::vector<std::string> notes;
-  if (!s.state.air) return notes;
+  if (!s.state.air && !s.models.frozen_air) return notes;
   const cases::Output& out = s.description.output;
   std::vector<cases::Problem> problems;
   const auto say = [&](const std::string& key, std::size_t i, const std::string& text) {
@@ -143,6 +147,10 @@ std::vector<std::string> PointReader::check_places(const cases::Simulation& s) c
     else if (outside > 0)
       notes.push_back("line '" + line.name + "': " + std::to_string(outside) + " of its " +
                       std::to_string(line.points) + " points lie outside the fluid; lines.csv has no rows for them");
+  }
+  if (!s.state.air) {
+    if (!problems.empty()) throw cases::CaseError(std::move(problems));
+    return notes;
   }
   const auto& rows = s.state.air->rows;
   const auto outside = [&](int axis, double at) {

@@ -155,7 +155,7 @@ void Recorder::record_statistics(const cases::Simulation& s) {
   totals_.push_back(read_totals(s));
   scalars_.push_back(fates_of_scalars(s));
   output::append(*history_csv_, row);
-  if (!s.state.air) return;
+  if (!s.state.air && !s.models.frozen_air) return;
   const cases::Output& out = s.description.output;
   const double t = s.state.time;
   for (const auto& probe : out.probes)
@@ -163,13 +163,14 @@ void Recorder::record_statistics(const cases::Simulation& s) {
       output::append(*probes_csv_,
                      output::ProbeRow{t, probe.name, r->velocity[0], r->velocity[1], r->velocity[2], r->pressure});
   for (const auto& plane : out.planes) {
+    if (!s.state.air) break;  // a plane's flux is that of cells
     const auto r = read_plane(s, plane.axis, plane.at);
     if (r)
       output::append(*planes_csv_,
                      output::PlaneRow{t, plane.name, r->flow_rate, r->static_pressure, r->total_pressure});
   }
   for (const auto& patch : out.forces) {
-    const Vec3 f = force_reader_.read(s, patch);
+    const Vec3 f = s.models.frozen_air ? Vec3::Zero() : force_reader_.read(s, patch);  // it acts on no wall
     output::append(*forces_csv_, output::ForceRow{t, patch, {f[0], f[1], f[2]}});
   }
   for (std::size_t k = 0; k < out.lines.size(); ++k)

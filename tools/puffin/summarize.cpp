@@ -229,8 +229,9 @@ output::Summary summarize(const cases::Simulation& s, const Recorder& recorder, 
     r.steps = air.steps;
     const double seconds = e.air + e.links;
     r.mlups = seconds > 0.0 ? 1e-6 * static_cast<double>(r.cells_fluid) * static_cast<double>(r.steps) / seconds : 0.0;
-    r.mlups_active = r.mlups;
-    const bool moved = air.steps > 0;  // the lattice of a frozen field only carries fines
+    r.mlups_active =
+        r.mlups * static_cast<double>(r.cells_active) / static_cast<double>(std::max<std::int64_t>(1, r.cells_fluid));
+    const bool moved = s.state.extremes.max_dt > 0.0;  // the lattice of a frozen field only carries fines
     r.dt_min = moved ? s.state.extremes.min_dt : s.state.scale.dt;
     r.dt_max = moved ? s.state.extremes.max_dt : s.state.scale.dt;
     r.tau_min = moved ? s.state.extremes.min_tau : 0.0;
@@ -241,7 +242,7 @@ output::Summary summarize(const cases::Simulation& s, const Recorder& recorder, 
       r.air_mass = {m.lost_share(), m.returned_share(), m.missing_share(), m.corrections};
     if (recorder.drops().has_both()) r.pressure = pressures(s, recorder.history());
     for (const auto& patch : s.description.output.forces) {
-      const auto f = recorder.forces().read(s, patch);
+      const coupling::Vec3 f = s.models.frozen_air ? coupling::Vec3::Zero() : recorder.forces().read(s, patch);
       r.forces.push_back({patch, f[0], f[1], f[2]});
     }
   } else {

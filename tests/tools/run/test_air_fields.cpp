@@ -51,6 +51,21 @@ TEST_F(AirScene, AFrozenFieldMayComeFromATable) {
   EXPECT_NE(text("bad.log").find("lacks the columns w"), std::string::npos) << text("bad.log");
 }
 
+// Omega times the axis' direction, however long the axis was written: at z = 0.8 mm, 0.3 mm over the centre,
+// u = 100/s 0.3 mm. `check` asks for no cells, and probes and lines read the field.
+TEST_F(AirScene, AFrozenFieldIsReadByProbesAndNeedsNoCells) {
+  const std::string scene =
+      frozen_channel +
+      "field = \"solid-body\"\naxis = [0.0, 2.0, 0.0]\nomega = 100.0\ncenter = [0.0015, 3e-5, 0.0005]\n" + carrier +
+      "statistics = \"0.5 ms\"\nprobe = [{ name = \"p\", at = [0.0015, 3e-5, 0.0008] }]\n"
+      "line = [{ name = \"l\", from = [0.0015, 3e-5, 0.0005], to = [0.0015, 3e-5, 0.0009], points = 3 }]\n";
+  ASSERT_EQ(run("turning", scene), 0) << text("turning.log");
+  EXPECT_NEAR(table("turning/probes.csv").numbers("u").back(), 100.0 * 0.3e-3, 1e-12);
+  EXPECT_NEAR(table("turning/lines.csv").numbers("u").back(), 100.0 * 0.4e-3, 1e-12);
+  const std::string program = std::string(PUFFIN_BINARY_DIR) + "/puffin check ";
+  EXPECT_EQ(std::system((program + (folder_ / "turning.toml").string() + " > /dev/null 2>&1").c_str()), 0);
+}
+
 TEST_F(AirScene, SamplersOutsideTheFluidAreRefusedAtTheirPlace) {
   const auto with = [](const std::string& from, const std::string& to) {
     std::string t = channel;
