@@ -18,12 +18,12 @@ struct PointReading {
 /// Velocity and pressure of one active cell, in the middle of a step: half of the uniform body force included.
 PointReading read_cell(const cases::Simulation& s, std::ptrdiff_t slot);
 
-/// Reads the air at points: a frozen field as it is given; else a parabola along each axis between cell centres; across a periodic face from the other
-/// side. Where some of the eight cells around a point are not fluid and a wall is nearer than a cell, the velocity
-/// follows the parabola through the wall's own velocity and the readings one and two cells further along the wall's
-/// normal (linear where the second is missing): second order up to the wall. The pressure follows the parabola through
-/// the readings one, two and three cells along the normal (a line where the third is missing). Elsewhere the cells
-/// outside the fluid are left out and the rest weighted to 1.
+/// Reads the air at points: a frozen field as it is given; else a parabola along each axis between cell centres; across
+/// a periodic face from the other side. Where some of the eight cells around a point are not fluid and a wall is nearer
+/// than a cell, the velocity follows the parabola through the wall's own velocity and the readings one and two cells
+/// further along the wall's normal (linear where the second is missing): second order up to the wall. The pressure
+/// follows the parabola through the readings one, two and three cells along the normal (a line where the third is
+/// missing). Elsewhere the cells outside the fluid are left out and the rest weighted to 1.
 class PointReader {
  public:
   PointReader() = default;
