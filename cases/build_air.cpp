@@ -91,8 +91,7 @@ void set_initial_air(Simulation& s) {
       *s.state.air);
 }
 
-void build_lattice(const LatticeNumbers& numbers, Simulation& s) {
-  const Case& c = s.description;
+void build_lattice(const Case& c, const LatticeNumbers& numbers, Simulation& s) {
   geometry::VoxelizeOptions options;
   std::vector<std::string> openings;
   options.periodic = periodic_directions(c, s.surface);
@@ -132,9 +131,10 @@ void build_lattice(const LatticeNumbers& numbers, Simulation& s) {
   s.state.spreader = coupling::Spreader(s.state.air->rows.slots());
 }
 
-/// Patches without a boundary through which a frozen field passes, as carriers do (is_opening in build_carriers.cpp):
-/// closed, the cells beside them would be emptied or filled by it.
-void open_patches(Case& c, const Surface& surface) {
+/// The case with a boundary for each patch that has none and through which a frozen field passes, as carriers do
+/// (is_opening in build_carriers.cpp): closed, the cells beside them would be emptied or filled by it.
+Case with_open_patches(Case c, const Surface& surface) {
+  if (c.carriers && c.carriers->outside == Outside::bounce) return c;
   for (const std::string& name : surface.patches.names) {
     const bool tagged = std::any_of(c.geometry.patches.begin(), c.geometry.patches.end(),
                                     [&](const Patch& p) { return p.name == name; });
@@ -149,6 +149,7 @@ void open_patches(Case& c, const Surface& surface) {
     open.type = BoundaryType::pressure_outlet;
     c.air.boundaries.push_back(open);
   }
+  return c;
 }
 
 /// Cells in which fines are carried by a field that does not change; nothing is collided or streamed there.
@@ -172,8 +173,7 @@ void build_frozen_cells(Simulation& s) {
   if (c.numerics.time_step == TimeStepRule::given) rule.reference_dt = c.numerics.time_step_seconds;
   LatticeNumbers numbers;
   numbers.dt = rule.reference_dt;
-  open_patches(s.description, s.surface);
-  build_lattice(numbers, s);
+  build_lattice(with_open_patches(c, s.surface), numbers, s);
   const double unit = s.state.scale.dt / s.dx;
   lbm::set_cells(
       [&](const Vec3& x) {
@@ -254,7 +254,7 @@ void build_air(Simulation& s) {
     return followed_speed(air, t, [&](const std::string& patch) { return areas.at(patch); });
   };
   s.models.body_force = from_file(c, "air.body_force", [&] { return body_force(c); });
-  build_lattice(numbers, s);
+  build_lattice(c, numbers, s);
   s.state.scale.dt = rule.first(0.0);
   set_initial_air(s);
 }

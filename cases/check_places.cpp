@@ -68,7 +68,8 @@ std::vector<std::string> carrier_place_warnings(const Case& c, const lbm::geomet
   if (!c.carriers) return warnings;
   for (const Boundary& b : c.air.boundaries) {
     if (b.type == BoundaryType::periodic)
-      warnings.push_back("carriers bounce off the periodic patch '" + b.patch + "': only the air goes on behind it");
+      warnings.push_back("carriers bounce off the periodic patches '" + b.patch + "' and '" + b.with +
+                         "': only the air goes on behind them");
     if (b.type == BoundaryType::moving_wall)
       warnings.push_back("carriers meet the moving wall '" + b.patch +
                          "' as one at rest: only the air is dragged along");

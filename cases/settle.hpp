@@ -16,7 +16,8 @@ struct SettledBed {
   bool at_rest = false;                    // else it was stopped at the longest time
 };
 
-/// Lets `carriers` fall under the models' gravity until the bed stays below 2 mm/s for 2 ms, at most 0.3 s. The spheres
+/// Lets `carriers` fall under the models' gravity until the bed stays below 2 mm/s for 2 ms, not before five times
+/// what a sphere needs to fall by its diameter, at most 0.3 s longer than that. The spheres
 /// are soft (linear law, 2 % overlap), their restitution is at most 0.3 and their rolling friction at least 0.1, so
 /// that a heap stands; friction is the models'. Adhesion is left out: with it a carrier would stay where it first
 /// touches and the bed would be a loose web; how loose a bed is, is said by its bulk density. Needs gravity: throws

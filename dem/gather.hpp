@@ -37,7 +37,7 @@ void predict(double duration, const Rules& rules, const Walls& walls, std::span<
 bool neighbours_suffice(double duration, const State& state, const Gathering& gathering);
 
 /// Gives each carrier a budget for eight steps at its speed, fewer where the lists would grow too long (fines at 30 m/s
-/// travel a hundred of their diameters in a step), and builds the list.
+/// travel 34 of their diameters between two exchanges), and builds the list.
 void renew_neighbours(double duration, const Rules& rules, const Gathering& gathering, State& state);
 
 /// Finds the pairs that may touch and unites them, live contacts and walls into clusters.

@@ -51,10 +51,13 @@ class Cells {
       if (members_[m].key == key) use(members_[m]);
   }
   const std::vector<Member>& members() const { return members_; }
-  /// Carriers in the cell of x, and those whose cells have the same hash.
-  std::int32_t crowd(const Eigen::Vector3d& x) const {
-    const std::size_t b = bucket(cell(x));
-    return begin_[b + 1] - begin_[b];
+  /// Carriers in the cell of x, at most `enough`.
+  std::int32_t crowd(const Eigen::Vector3d& x, std::int32_t enough) const {
+    const Key key = cell(x);
+    const std::size_t b = bucket(key);
+    std::int32_t count = 0;
+    for (std::int32_t m = begin_[b]; m < begin_[b + 1] && count < enough; ++m) count += members_[m].key == key;
+    return count;
   }
 
  private:
@@ -121,11 +124,14 @@ double expected_neighbours(const Carriers& carriers, const std::vector<double>& 
   const double largest = *std::max_element(carriers.radius.begin(), carriers.radius.end());
   const double edge = mean_reach(budget, largest);
   const Cells cells(carriers, budget, edge);
+  const double most = static_cast<double>(carriers.size() - 1);
+  constexpr std::int32_t enough = 100;  // a crowd that is counted no further
   double sum = 0.0;
   for (const std::int32_t i : which)
     if (const double reach = reach_of(carriers, budget, largest, i) / edge; std::isfinite(reach))
-      sum += reach * reach * reach * cells.crowd(carriers.position[i]);
-  return 4.0 / 3.0 * std::numbers::pi * sum / static_cast<double>(which.size());
+      sum += std::min(
+          most, 4.0 / 3.0 * std::numbers::pi * reach * reach * reach * (cells.crowd(carriers.position[i], enough) - 1));
+  return sum / static_cast<double>(which.size());
 }
 
 void build(const Carriers& carriers, Neighbours& neighbours) {

@@ -28,7 +28,8 @@ void build(const Carriers& carriers, Neighbours& neighbours);
 
 /// About how many neighbours a carrier of `which` would be given by build() with these budgets [m]: the mean of
 ///   (4/3) pi (reach/e)^3 c,  reach = radius + largest radius + 2 budget,
-/// c the carriers in its cube of edge e, the mean reach. Cost ~ number of carriers, whatever it returns.
+/// c the other carriers in its cube of edge e, the mean reach, and at most all of them. Crowds above 100 count as 100.
+/// Cost ~ number of carriers, whatever it returns.
 double expected_neighbours(const Carriers& carriers, const std::vector<double>& budget,
                            std::span<const std::int32_t> which);
 

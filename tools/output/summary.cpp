@@ -152,6 +152,7 @@ Json to_json(const Summary& s) {
   for (const auto& f : s.forces) json["forces"][f.patch] = {number(f.fx), number(f.fy), number(f.fz)};
   if (s.air_mass) json["air_mass"] = written(*s.air_mass);
   json["carriers"] = written(s.carriers.value_or(CarrierSummary{}));
+  if (!s.carriers) json["carriers"]["retained_fraction"] = nullptr;  // of none
   json["fines"] = written_fines(s.fines);
   json["collisions"] = written(s.collisions.value_or(CollisionSummary{}));
   json["assumptions"] = s.assumptions;

@@ -102,7 +102,7 @@ void close_status(const output::OutputFolder& folder, const std::string& state,
 }
 
 void close_failed(const output::OutputFolder& folder, const std::vector<output::HistoryRow>& history) noexcept try {
-  close_status(folder, "failed", history);
+  if (output::read_status(folder.file("status.json")).state == "running") close_status(folder, "failed", history);
 } catch (const std::exception&) {  // what ended the run is told by whoever caught it
 }
 

@@ -39,7 +39,8 @@ void announce(const output::OutputFolder& folder, const cases::Case& c);
 void close_status(const output::OutputFolder& folder, const std::string& state,
                   const std::vector<output::HistoryRow>& history, double wall_clock = 0.0);
 
-/// The same for a run that an exception ends, as far as it can still be written: on a full disk it cannot.
+/// The same for a run that an exception ends, as far as it can still be written (on a full disk it cannot) and it was
+/// not closed before.
 void close_failed(const output::OutputFolder& folder, const std::vector<output::HistoryRow>& history) noexcept;
 
 }  // namespace puffin::tools

@@ -72,8 +72,8 @@ int run_here(const RunOptions& options, cases::Case c, int threads, Clock::time_
   const auto out = options.out.empty() ? std::nullopt : std::optional(options.out);
   const output::OutputFolder folder(out, c.name, options.resume);
   announce(folder, c);
-  log_to_file(folder.file("log.txt"));
   try {
+    log_to_file(folder.file("log.txt"));
     if (options.resume && !folder.resumed())
       log_warning(folder.path().string() + " was killed before its first checkpoint: the run begins anew");
     keep_case(c, folder);

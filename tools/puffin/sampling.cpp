@@ -32,7 +32,7 @@ PointReading read_cell(const cases::Simulation& s, std::ptrdiff_t slot) {
 }
 
 DropReader::DropReader(const cases::Simulation& s) {
-  if (!s.state.air) return;
+  if (!s.state.air || s.models.frozen_air) return;  // a frozen field has no pressure
   const auto& air = *s.state.air;
   const auto collect = [&](const std::vector<lbm::OpeningLink>& links, std::vector<Cell>& cells) {
     for (const auto& link : links) {

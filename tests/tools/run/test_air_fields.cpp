@@ -66,6 +66,41 @@ TEST_F(AirScene, AFrozenFieldIsReadByProbesAndNeedsNoCells) {
   EXPECT_EQ(std::system((program + (folder_ / "turning.toml").string() + " > /dev/null 2>&1").c_str()), 0);
 }
 
+// A cloud in a uniform field of 2 m/s through a duct of 4 mm whose inlet and outlet have no boundary leaves by the
+// outlet within 3 ms; were that closed, its cells would fill up. No pressure drops are told of air that has none.
+TEST_F(AirScene, FinesInAFrozenFieldLeaveThroughTheOutletWithoutABoundary) {
+  ASSERT_EQ(run("cloud", R"toml(
+schema = 1
+name = "cloud"
+[geometry]
+generator = "duct"
+[geometry.duct]
+length = "4 mm"
+width = "2 mm"
+height = "2 mm"
+[air]
+model = "frozen"
+field = "uniform"
+velocity = [2.0, 0.0, 0.0]
+[numerics]
+dx = "0.25 mm"
+[fines]
+[[fines.scalar]]
+name = "g"
+diffusion = 0
+initial = { shape = "gaussian", center = [0.002, 0.001, 0.001], sigma = "0.2 mm", amount = 500 }
+[stop]
+time = "4 ms"
+when_empty = false
+[output]
+statistics = "1 ms"
+)toml"),
+            0)
+      << text("cloud.log");
+  EXPECT_GT(table("cloud/history.csv").numbers("FFE").back(), 0.99);
+  EXPECT_NE(text("cloud/summary.json").find("\"window\": null"), std::string::npos);
+}
+
 TEST_F(AirScene, SamplersOutsideTheFluidAreRefusedAtTheirPlace) {
   const auto with = [](const std::string& from, const std::string& to) {
     std::string t = channel;
