@@ -9,6 +9,7 @@
 #include "cases/fill.hpp"
 #include "cases/micromodel_file.hpp"
 #include "cases/settle.hpp"
+#include "cases/untagged_openings.hpp"
 
 namespace puffin::cases {
 
@@ -70,22 +71,6 @@ dem::Surfaces surfaces_of(const Contact& carrier, const Contact& contact, const 
   return surfaces;
 }
 
-/// Openings: those of the air; where there is no lattice to tell, also `inlet`, `outlet` and every patch tagged by hand
-/// that is not said to be a wall (by its boundary, by the names wall, pocket, obstacle, or as the place of the fill).
-bool is_opening(const Case& c, const coupling::PatchDrive& drive) {
-  if (drive.is_inlet || drive.is_outlet) return true;
-  if (c.air.model == AirModel::lbm) return false;
-  const std::string& name = drive.patch;
-  if (name == "inlet" || name == "outlet") return true;
-  if (name == "wall" || name == "pocket" || name == "obstacle") return false;
-  for (const Boundary& b : c.air.boundaries)
-    if (b.patch == name) return false;
-  if (c.carriers->fill)
-    if (const auto* at = std::get_if<std::string>(&c.carriers->fill->at); at != nullptr && *at == name) return false;
-  return std::any_of(c.geometry.patches.begin(), c.geometry.patches.end(),
-                     [&](const Patch& p) { return p.name == name; });
-}
-
 /// What a dose that was stacked or read, not settled, does first.
 std::string start_of(const Dose& dose, const Carriers& c) {
   if (c.fill->shape == FillShape::file) return "; as the file places it";
@@ -100,6 +85,23 @@ std::string start_of(const Dose& dose, const Carriers& c) {
         "%.2g mm in some %.2g ms, and what touches before the first motion is not counted",
         c.fill->gap, 1e3 * fall, 1e3 * std::sqrt(2.0 * fall / g));
   return text;
+}
+
+/// A contact gives by up to a part of the larger carrier: what is smaller may be pressed through a wall by it.
+void warn_of_sizes(const std::vector<dem::Carrier>& carriers, const Contact& contact,
+                   std::vector<std::string>& warnings) {
+  if (carriers.empty() || contact.model != ContactModel::linear) return;
+  const auto [small, large] = std::minmax_element(carriers.begin(), carriers.end(),
+                                                  [](const auto& a, const auto& b) { return a.radius < b.radius; });
+  const double gives = 2.0 * contact.max_overlap * large->radius;
+  if (gives < small->radius) return;
+  char text[256];
+  std::snprintf(text, sizeof text,
+                "carriers.contact.max_overlap = %g lets the largest carriers (%.3g um) give by %.3g um and press the "
+                "smallest (%.3g um) through a wall: give at most %.2g",
+                contact.max_overlap, 2e6 * large->radius, 1e6 * gives, 2e6 * small->radius,
+                0.5 * small->radius / large->radius);
+  warnings.push_back(text);
 }
 
 /// Lets the dose fall, with every opening closed, and says what came of it.
@@ -144,6 +146,10 @@ void build_carriers(Simulation& s) {
   m.pressure_gradient = c.pressure_gradient;
   m.near_wall = c.near_wall;
   m.two_way = c.two_way;
+  if (s.description.air.model == AirModel::frozen && c.volume_fraction != VolumeFraction::none &&
+      (c.drag == Drag::di_felice || c.drag == Drag::beetstra || c.volume_fraction == VolumeFraction::averaged))
+    s.warnings.push_back(
+        "carriers.volume_fraction: in frozen air every carrier is dragged as one alone, whatever lies beside it");
   const Numerics& n = s.description.numerics;
   m.steps_per_exchange = n.coupling_interval;
   m.steps_per_exchange_asleep =
@@ -156,7 +162,9 @@ void build_carriers(Simulation& s) {
   m.opening_of_triangle.assign(s.surface.mesh.triangles.size(), -1);
   for (std::size_t t = 0; t < s.surface.mesh.triangles.size(); ++t) {
     const int patch = s.surface.patches.of_triangle[t];
-    if (c.outside != Outside::remove || !is_opening(s.description, m.patches[patch])) continue;
+    const coupling::PatchDrive& drive = m.patches[patch];
+    const bool opens = drive.is_inlet || drive.is_outlet || is_open_unsaid(s.description, drive.patch);
+    if (c.outside != Outside::remove || !opens) continue;
     openings.push_back(static_cast<int>(t));
     m.opening_of_triangle[t] = patch;
   }
@@ -197,6 +205,7 @@ void build_carriers(Simulation& s) {
       carriers.push_back(carrier);
     }
   }
+  warn_of_sizes(carriers, c.contact, s.warnings);
   dem::add(carriers, s.state.carriers);
   for (const auto& carrier : carriers) s.dose_mass += carrier.mass;
   if (c.start > 0.0)

@@ -63,7 +63,7 @@ using Friction = std::variant<double, VelocityFriction>;
 struct Contact {
   ContactModel model = ContactModel::linear;
   std::optional<double> stiffness;  // [N/m]; empty: "auto", from max_overlap
-  double max_overlap = 0.0;         // over the radius, at the fastest impact
+  double max_overlap = 0.0;         // of the smaller diameter, at the fastest impact
   double restitution = 0.0;
   Friction friction = 0.0;
   double rolling_friction = 0.0;

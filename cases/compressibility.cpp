@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <set>
 #include <utility>
 #include <vector>
@@ -87,6 +88,14 @@ double laminar_pressures_apart(const Case& c, const Surface& s, double speed) {
 }
 
 }  // namespace
+
+double common_pressure(const Case& c) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const Boundary& b : c.air.boundaries)
+    if (b.type == BoundaryType::pressure_outlet) low = std::min(low, b.pressure), high = std::max(high, b.pressure);
+  if (low > high) return 0.0;
+  return std::max(low, 0.0) + std::min(high, 0.0);
+}
 
 double expected_pressure_difference(const Case& c, const Surface& surface, double reference_speed) {
   return std::max(laminar_friction(c, surface), laminar_pressures_apart(c, surface, reference_speed));

@@ -31,4 +31,9 @@ double expected_pressure_difference(const Case& c, const Surface& surface, doubl
 /// positive.
 LatticeSpeed lattice_speed(const Case& c, const Surface& surface, double reference_speed);
 
+/// The gauge pressure [Pa] that all pressure outlets have in common: the lowest if all are above 0, the highest if all
+/// are below, else 0. Only differences of pressure move air; on the lattice a pressure is a density, which this is not
+/// to change.
+double common_pressure(const Case& c);
+
 }  // namespace puffin::cases

@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include "cases/check_boundaries.hpp"
 #include "cases/size_distribution.hpp"
@@ -12,11 +16,30 @@ namespace puffin::cases {
 
 namespace {
 
-/// Centre and equivalent diameter of the lowest part of a patch that faces down (against the carriers' weight).
+/// The lowest part of a patch that faces down (with the carriers' weight): its centre, and the diameter of the circle
+/// of its area, or, where that sticks out of its sides, of the largest around the centre that does not.
 struct Floor {
   Vec3 centre = Vec3::Zero();
   double diameter = 0.0;
 };
+
+/// Distance of a point from the nearest edge that only one of the triangles has.
+double distance_to_border(const lbm::geometry::TriangleMesh& mesh, const std::vector<int>& triangles, const Vec3& x) {
+  std::map<std::pair<int, int>, int> sides;
+  for (const int t : triangles)
+    for (int k = 0; k < 3; ++k) {
+      const int a = mesh.triangles[t][k], b = mesh.triangles[t][(k + 1) % 3];
+      ++sides[{std::min(a, b), std::max(a, b)}];
+    }
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const auto& [edge, count] : sides) {
+    if (count != 1) continue;
+    const Vec3 from = mesh.vertices[edge.first], along = mesh.vertices[edge.second] - from;
+    const double part = std::clamp(along.dot(x - from) / along.squaredNorm(), 0.0, 1.0);
+    nearest = std::min(nearest, (from + part * along - x).norm());
+  }
+  return nearest;
+}
 
 Floor floor_of(const Surface& surface, const std::string& patch, const Vec3& gravity) {
   const Vec3 down = gravity.norm() > 0.0 ? Vec3(gravity.normalized()) : Vec3(-Vec3::UnitZ());
@@ -33,15 +56,20 @@ Floor floor_of(const Surface& surface, const std::string& patch, const Vec3& gra
                                 "' has no face that carriers can lie on; give a point [x, y, z] instead");
   Floor floor;
   double area = 0.0;
+  std::vector<int> of_floor;
   const double tolerance = 1e-6 + 1e-3 * std::abs(lowest);
   for (int t = 0; t < static_cast<int>(surface.mesh.triangles.size()); ++t) {
     if (surface.patches.of_triangle[t] != wanted || !faces_down(t) || depth(t) < lowest - tolerance) continue;
     const double a = surface.mesh.area(t);
+    of_floor.push_back(t);
     area += a;
     floor.centre += a / 3.0 * (surface.mesh.corner(t, 0) + surface.mesh.corner(t, 1) + surface.mesh.corner(t, 2));
   }
   floor.centre /= area;
   floor.diameter = 2.0 * std::sqrt(area / std::numbers::pi);
+  // A polygon of 16 sides counts as round: its inner circle is 0.987 of that of its area.
+  const double inner = 2.0 * distance_to_border(surface.mesh, of_floor, floor.centre);
+  if (inner < 0.98 * floor.diameter) floor.diameter = inner;
   return floor;
 }
 

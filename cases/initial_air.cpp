@@ -1,5 +1,6 @@
 #include "cases/initial_air.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -25,15 +26,27 @@ InitialAir taylor_green_3d(double rho, double u, const Vec3& corner, const Vec3&
           }};
 }
 
-InitialAir taylor_green_2d(double rho, double u, const Vec3& corner, const Vec3& k) {
+/// In the plane of the axes a and b.
+InitialAir taylor_green_2d(double rho, double u, const Vec3& corner, const Vec3& k, int a, int b) {
+  const double v = u * k[a] / k[b];
   return {[=](const Vec3& at) -> Vec3 {
             const Vec3 x = k.cwiseProduct(at - corner);
-            return {-u * std::cos(x[0]) * std::sin(x[1]), u * k[0] / k[1] * std::sin(x[0]) * std::cos(x[1]), 0.0};
+            Vec3 velocity = Vec3::Zero();
+            velocity[a] = -u * std::cos(x[a]) * std::sin(x[b]);
+            velocity[b] = v * std::sin(x[a]) * std::cos(x[b]);
+            return velocity;
           },
           [=](const Vec3& at) {
             const Vec3 x = 2.0 * k.cwiseProduct(at - corner);
-            return -0.25 * rho * u * u * (std::cos(x[0]) + std::cos(x[1]));
+            return -0.25 * rho * (u * u * std::cos(x[a]) + v * v * std::cos(x[b]));
           }};
+}
+
+/// The axis along which a box is a slab, less than a quarter of its other edges; else z.
+int thin_axis(const Vec3& box) {
+  int thin = 2;
+  box.minCoeff(&thin);
+  return 4.0 * box[thin] < std::min(box[(thin + 1) % 3], box[(thin + 2) % 3]) ? thin : 2;
 }
 
 InitialAir from_table(const std::string& file) {
@@ -57,7 +70,8 @@ std::optional<InitialAir> initial_air(const Air& air, const Vec3& corner, const 
   switch (air.initial) {
     case InitialField::taylor_green: {
       const bool cube = box.maxCoeff() - box.minCoeff() <= 0.01 * box.maxCoeff();
-      return cube ? taylor_green_3d(air.density, u, corner, k) : taylor_green_2d(air.density, u, corner, k);
+      const int thin = thin_axis(box), a = thin == 0 ? 1 : 0, b = thin == 2 ? 1 : 2;
+      return cube ? taylor_green_3d(air.density, u, corner, k) : taylor_green_2d(air.density, u, corner, k, a, b);
     }
     case InitialField::shear_layer:
       return InitialAir{[=](const Vec3& at) -> Vec3 {

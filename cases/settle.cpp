@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <map>
 #include <stdexcept>
@@ -18,6 +19,7 @@ using Vec3 = Eigen::Vector3d;
 constexpr double longest = 0.3;  // [s]
 constexpr double step = 2e-5;    // [s] between two looks at the whole bed
 constexpr double still = 2e-3;   // [m/s] such a speed carries a sphere 0.2 um high
+constexpr double give = 0.02;    // overlap that an impact may have, of the diameter
 constexpr int looks = 100;       // that must find the whole bed still
 constexpr double falls = 5.0;    // times a sphere needs to fall by its diameter: before, still means not yet fast
 
@@ -26,12 +28,28 @@ dem::Surfaces soft(const dem::Surfaces& surfaces) {
   dem::LinearContact law;
   std::visit(
       [&](const auto& contact) {
+        law.max_overlap = give;
         law.restitution = std::min(contact.restitution, 0.3);
         law.friction = contact.friction;
         law.rolling_friction = std::max(contact.rolling_friction, 0.1);
       },
       surfaces.contact);
   return {law, dem::NoAdhesion{}};
+}
+
+/// Throws std::invalid_argument naming the first carrier outside the walls.
+void require_inside(const dem::Walls& walls, const dem::Carriers& c, double largest) {
+  for (std::size_t i = 0; i < c.size(); ++i) {
+    if (c.rest[i] == dem::Rest::asleep || walls.inside(c.position[i])) continue;
+    char text[320];
+    std::snprintf(
+        text, sizeof text,
+        "carriers.fill: the bed presses carrier %lld, of %.3g um, through a wall while it settles: the largest, "
+        "of %.3g um, are so soft then that they may give by %.3g um. Give sizes nearer to each other (smallest "
+        "over largest above %.2g), or places by shape = \"file\"",
+        static_cast<long long>(c.id[i]), 2e6 * c.radius[i], 1e6 * largest, 1e6 * give * largest, 2.0 * give);
+    throw std::invalid_argument(text);
+  }
 }
 
 double lowest_of(const std::vector<dem::Carrier>& carriers, const Vec3& up) {
@@ -61,6 +79,7 @@ SettledBed settle(dem::Models models, const dem::Walls& walls, const std::vector
   while (!bed.at_rest && state.time < longest + earliest) {
     dem::advance(step, models, walls, loads, state, events);
     events.clear();
+    if (state.statistics.steps % looks == 0) require_inside(walls, state.carriers, diameter);
     double fastest = 0.0;
     for (const Vec3& v : state.carriers.velocity) fastest = std::max(fastest, v.norm());
     found_still = fastest < still ? found_still + 1 : 0;

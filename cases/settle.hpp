@@ -21,7 +21,8 @@ struct SettledBed {
 /// are soft (linear law, 2 % overlap), their restitution is at most 0.3 and their rolling friction at least 0.1, so
 /// that a heap stands; friction is the models'. Adhesion is left out: with it a carrier would stay where it first
 /// touches and the bed would be a loose web; how loose a bed is, is said by its bulk density. Needs gravity: throws
-/// std::invalid_argument without.
+/// std::invalid_argument without, and if a carrier is pressed through a wall: one whose radius is less than what the
+/// largest may give.
 SettledBed settle(dem::Models models, const dem::Walls& walls, const std::vector<dem::Carrier>& carriers);
 
 /// Mass over the space between the bed's floor and its surface [kg/m^3]. Columns of one mean diameter, along `up`, that

@@ -24,6 +24,18 @@ bool is_called_opening(const std::string& name) {
   return false;
 }
 
+bool is_open_unsaid(const Case& c, const std::string& patch) {
+  if (c.air.model == AirModel::lbm || patch == "wall" || patch == "pocket" || patch == "obstacle") return false;
+  if (std::any_of(c.air.boundaries.begin(), c.air.boundaries.end(),
+                  [&](const Boundary& b) { return b.patch == patch || b.with == patch; }))
+    return false;
+  if (c.carriers && c.carriers->fill)
+    if (const auto* at = std::get_if<std::string>(&c.carriers->fill->at); at != nullptr && *at == patch) return false;
+  return patch == "inlet" || patch == "outlet" ||
+         std::any_of(c.geometry.patches.begin(), c.geometry.patches.end(),
+                     [&](const Patch& p) { return p.name == patch; });
+}
+
 void refuse_untagged_openings(const Case& c, const lbm::geometry::Patches& patches) {
   if (c.air.model != AirModel::lbm) return;
   std::string text;

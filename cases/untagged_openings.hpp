@@ -1,5 +1,5 @@
 #pragma once
-// Openings that the case forgot.
+// Openings that the case does not name as such.
 
 #include <string>
 
@@ -11,6 +11,11 @@ namespace puffin::cases {
 /// Does a patch's name say that it is an opening? One of its words, without digits, is inlet, outlet, inflow, outflow,
 /// opening, mouth, mouthpiece, vent, port or exhaust: "inlet", "Outlet-2", "air_inlet".
 bool is_called_opening(const std::string& name);
+
+/// Is a patch open although no [[air.boundary]] says what happens there? Where no lattice is computed: `inlet`,
+/// `outlet` and every patch tagged by hand, but not what is called wall, pocket or obstacle, and not the place of the
+/// fill. On a lattice no patch is.
+bool is_open_unsaid(const Case& c, const std::string& patch);
 
 /// Throws lbm::geometry::GeometryError naming every patch that is called an opening while no [[air.boundary]] says what
 /// happens there: it would be a wall in silence. Only where air = "lbm" needs to know.

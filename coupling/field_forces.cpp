@@ -10,7 +10,9 @@ namespace {
 
 using Eigen::Matrix3d;
 
-constexpr double wall_reach = 10.0;  // radii within which a wall is felt: at 10 it adds 6 %
+// A wall is felt in full within 15 radii of a centre, beyond which what it adds fades, to nothing at 30, where it would
+// be 2 % along the wall and 4 % across.
+constexpr double full_reach = 15.0, wall_reach = 30.0;  // radii
 
 double volume_of(const dem::Carriers& c, std::size_t p) {
   return 4.0 / 3.0 * std::numbers::pi * c.carriers[p] * std::pow(c.single_radius[p], 3);
@@ -51,7 +53,7 @@ void add_lift(const Models& m, double interval, const Vec3& vorticity, std::size
 void add_near_wall(const Models& m, double interval, std::vector<dem::WallTouch>& touches, std::size_t p, State& s) {
   const dem::Carriers& c = s.carriers.carriers;
   const double radius = c.single_radius[p];
-  m.walls->near(c.position[p], c.radius[p] + wall_reach * radius, touches);
+  m.walls->near(c.position[p], c.radius[p] + (wall_reach - 1.0) * radius, touches);
   if (touches.empty() || !(touches.front().distance > 0.0)) return;
   const dem::WallTouch* nearest = &touches.front();
   for (const auto& touch : touches)
@@ -59,7 +61,9 @@ void add_near_wall(const Models& m, double interval, std::vector<dem::WallTouch>
   const Vec3 normal = (c.position[p] - nearest->point) / nearest->distance;
   const double gap = std::max(0.0, nearest->distance - c.radius[p]) / radius;  // of the parcel's surface
   dem::Load& load = s.loads[p];
-  const double along = drag_along_wall(1.0 / (1.0 + gap)), across = drag_towards_wall(gap);
+  const double felt = std::clamp((wall_reach - 1.0 - gap) / (wall_reach - full_reach), 0.0, 1.0);
+  const double along = 1.0 + felt * (drag_along_wall(1.0 / (1.0 + gap)) - 1.0);
+  const double across = 1.0 + felt * (drag_towards_wall(gap) - 1.0);
   const double slip = normal.dot(load.air_velocity - c.velocity[p]);
   const double excess = load.drag * (across - along);
   load.force += excess * mean_of_decay(excess * interval / c.mass[p]) * slip * normal;
@@ -87,8 +91,9 @@ void add_field_forces(const Models& m, double interval, State& s) {
                                       : gradient_of(m.frozen_air, c.position[p], 0.5 * c.radius[p]);
       if (m.lift != Lift::none) add_lift(m, interval, curl(gradient), p, s);
       if (pressure) {
-        const Vec3 slope = s.air ? Vec3(s.gradients.density_excess_lu[p] * (s.scale.pressure(1.0) / s.scale.dx))
-                                 : Vec3(-m.air.density * (gradient * s.loads[p].air_velocity));
+        const Vec3 slope =
+            s.air ? Vec3(s.gradients.density_excess_lu[p] * (s.scale.pressure_difference(1.0) / s.scale.dx))
+                  : Vec3(-m.air.density * (gradient * s.loads[p].air_velocity));
         s.loads[p].force -= volume_of(c, p) * slope;
         if (averaged) s.pressure_forces[p] = -volume_of(c, p) * slope;
       }

@@ -30,7 +30,7 @@ void find_loads(const Models& models, double interval, State& s) {
   if (!s.air && !models.frozen_air) return;
   std::vector<double> beta(count, 0.0), solid, volume;
   double largest_fraction = 1.0;
-  if (s.air && models.volume_fraction != VolumeFraction::none) {
+  if (computes_air(models, s) && models.volume_fraction != VolumeFraction::none) {
     volume.resize(count);
     for (std::size_t p = 0; p < count; ++p)
       volume[p] = c.carriers[p] * 4.1887902047863909846 * std::pow(c.single_radius[p], 3);

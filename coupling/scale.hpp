@@ -10,6 +10,7 @@ struct Scale {
   double dx = 0.0;       // edge of a cell [m]
   double dt = 0.0;       // one air step [s]
   double density = 0.0;  // reference density of the air [kg/m^3]; 1 in lattice units
+  double base = 0.0;     // gauge pressure of air of that density [Pa]: what all outlets have in common
 
   /// SI value of one lattice unit.
   double speed() const { return dx / dt; }                                  // [m/s]
@@ -29,9 +30,10 @@ struct Scale {
   double viscosity(double viscosity_lu) const { return viscosity_lu * dx * dx / dt; }  // kinematic, to [m^2/s]
   /// Relaxation time of the shear stress: tau = 3 nu_lu + 1/2.
   double relaxation_time(double viscosity) const { return 3.0 * viscosity_lu(viscosity) + 0.5; }  // from [m^2/s]
-  /// Gauge pressure of an isothermal lattice: p = c_s^2 (rho - 1), c_s^2 = 1/3.
-  double pressure(double density_excess_lu) const { return density_excess_lu / 3.0 * pressure_unit(); }  // to [Pa]
-  double density_excess_lu(double pressure) const { return 3.0 * pressure / pressure_unit(); }           // from [Pa]
+  /// Gauge pressure of an isothermal lattice: p = base + c_s^2 (rho - 1), c_s^2 = 1/3.
+  double pressure(double density_excess_lu) const { return base + pressure_difference(density_excess_lu); }  // to [Pa]
+  double pressure_difference(double density_lu) const { return density_lu / 3.0 * pressure_unit(); }         // to [Pa]
+  double density_excess_lu(double pressure) const { return 3.0 * (pressure - base) / pressure_unit(); }  // from [Pa]
   /// Volume flow rate [m^3/s] of one cell face crossed at one lattice velocity.
   double flow_rate() const { return dx * dx * dx / dt; }
   /// Momentum [N s] of one cell at one lattice velocity.

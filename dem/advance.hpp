@@ -22,7 +22,7 @@ namespace puffin::dem {
 /// Changes `state` (carriers, histories, drag_impulse of this call, time, statistics) and appends to `events`.
 /// The result has the same bits for every number of threads.
 /// Throws std::invalid_argument for a bad duration, models, or number of loads; Failure (failure.hpp) if a carrier's
-/// state is not finite, or its contacts need too many sub-steps.
+/// state is not finite, or its contacts need too many sub-steps; Interrupted if the models' asked_to_stop says so.
 void advance(double duration, const Models& models, const Walls& walls, std::span<const Load> loads, State& state,
              Events& events);
 

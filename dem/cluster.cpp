@@ -12,7 +12,6 @@
 
 #include "dem/contact_step.hpp"
 #include "dem/failure.hpp"
-#include "dem/first_touch.hpp"
 #include "dem/free_flight.hpp"
 #include "dem/meeting.hpp"
 #include "dem/parts.hpp"
@@ -22,9 +21,10 @@ namespace {
 
 using Eigen::Vector3d;
 constexpr double never = std::numeric_limits<double>::infinity();
-constexpr std::int64_t most_steps = 50'000'000;  // something must be wrong
-constexpr double longest_way_near_walls = 0.2;   // in radii, between two looks
-constexpr double longest_growth = 4.0;           // of a sub-step against the one before
+constexpr std::int64_t most_steps = 50'000'000;         // something must be wrong
+constexpr std::int64_t body_steps_unasked = 1'000'000;  // between two questions whether to stop: a fifth of a second
+constexpr double longest_way_near_walls = 0.2;          // in radii, between two looks
+constexpr double longest_growth = 4.0;                  // of a sub-step against the one before
 
 // A large cluster is shared among threads in parts of this size, some 20 us of work each.
 constexpr std::size_t bodies_a_part = 256, blocks_a_part = 64;
@@ -64,7 +64,6 @@ class Motion {
   void close_step(std::size_t i, double h, Said& said);
   void kick_and_drift(double h);
   void fly(double h);
-  double time_of_flight(double horizon) const;
   void look_again();
 
   const double time_, duration_;
@@ -208,30 +207,6 @@ void Motion::fly(double h) {
   said_[0].ask_walls = ask;
 }
 
-/// Time until the first touch of anything, at most `horizon`, while nothing is live.
-double Motion::time_of_flight(double horizon) const {
-  double first = horizon;
-  for (std::size_t i = 0; i < cluster_.touches.size(); ++i) {
-    const Springs& s = cluster_.block(i);
-    const std::size_t l = i % Springs::lanes;
-    if (s.phase[l] == lane::lost) continue;
-    const Touch& touch = cluster_.touches[i];
-    const Body& a = cluster_.bodies[touch.a];
-    const Vector3d acceleration = cluster_.records[touch.a].acceleration;
-    if (touch.b >= 0) {
-      const Body& b = cluster_.bodies[touch.b];
-      first = std::min(first, first_touch(vec(a.x) - vec(b.x), vec(a.v) - vec(b.v),
-                                          acceleration - cluster_.records[touch.b].acceleration,
-                                          cluster_.constants[touch.pair].reach, first));
-    } else {
-      const Vector3d& n = touch.plane.normal;
-      first =
-          std::min(first, first_zero(touch.plane.gap(vec(a.x), a.radius), n.dot(vec(a.v)), n.dot(acceleration), first));
-    }
-  }
-  return first;
-}
-
 void Motion::look_again() {
   if (!merge(said_).ask_walls) return;
   for (std::size_t i = 0; i < cluster_.bodies.size(); ++i) {
@@ -251,16 +226,21 @@ void Motion::run() {
   for (const Body& body : c.bodies) c.fastest = std::max(c.fastest, vec(body.v).squaredNorm());
   c.fastest = std::sqrt(c.fastest);
   evaluate(0.0, duration_);
+  std::int64_t unasked = 0;
   for (std::int64_t taken = 0; elapsed_ < duration_ && !c.disturbed;) {
     if (++taken > most_steps)
       throw Failure(c.records[0].id, "needs more than 50 million sub-steps in a step of", duration_,
                     "; give shorter steps or a larger max_overlap");
+    if ((unasked += std::max<std::int64_t>(moving, 1)) > body_steps_unasked) {
+      if (rules_.asked_to_stop && rules_.asked_to_stop()) throw Interrupted();
+      unasked = 0;
+    }
     const double remaining = duration_ - elapsed_;
     const bool flies = !live_;
     double h = std::min(remaining, look_);
     if (flies) {
       const double most = h;
-      h = time_of_flight(h);
+      h = time_of_flight(h, c);
       fly(h);
       if (h < most)  // one of those that were left alone, as nothing was fast, may be the one that is met
         for (Springs& block : c.springs) block.idle_until = 0.0;

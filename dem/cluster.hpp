@@ -3,6 +3,7 @@
 // other, so they run in parallel and can be thrown away and computed again.
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "dem/body.hpp"
@@ -23,6 +24,7 @@ struct Rules {
   bool rotation;
   OnWall on_wall;
   Integration integration;
+  std::function<bool()> asked_to_stop;
   SpringLaw carrier_springs, wall_springs;  // the same laws, as the sub-steps ask for them
   explicit Rules(const Models& models);
   const SurfaceLaw& law(bool with_wall) const { return with_wall ? wall : carrier; }
@@ -125,10 +127,14 @@ void list_shares(Cluster& cluster);
 /// to its own; a live contact that finds no plane ends.
 void match_walls(std::int32_t b, double time, const Rules& rules, Cluster& cluster);
 
+/// Time [s] until the first touch of anything, at most `horizon`, while nothing is live.
+double time_of_flight(double horizon, const Cluster& cluster);
+
 /// Moves the bodies over `duration` [s] from `time`. Velocity Verlet (kick, drift, kick) with forces at the predicted
 /// end velocity (second order also with dashpots and drag); a contact that begins or ends within a sub-step counts for
 /// its part of it; while nothing touches, the closed form of free flight up to the next touch. The sub-step is at most
-/// t_c/steps_per_contact of each live contact. Stops early if a sleeper is disturbed.
+/// t_c/steps_per_contact of each live contact. Stops early if a sleeper is disturbed. Throws
+/// Failure for too many sub-steps, Interrupted.
 void integrate(double time, double duration, const Rules& rules, const Walls& walls, Cluster& cluster);
 
 }  // namespace puffin::dem

@@ -78,13 +78,15 @@ Look look_at(std::size_t index, const Substep& substep, const Rules& rules, cons
   const Meeting m = meet(touch, cluster.constants[touch.pair], a, b);
   const PairLaw& pair = cluster.pairs[touch.pair].law;
   Look look;
-  if (surfaces_meet(m.overlap, a.radius)) {
+  if (m.overlap >= -placed_gap) {
     const double parting = m.normal.dot(centre_velocity(a, b));
     Vector3d apart = cluster.records[touch.a].acceleration;
     if (b != nullptr) apart -= cluster.records[touch.b].acceleration;
     const double pulled = parting == 0.0 ? m.normal.dot(apart) : 0.0;
-    look.event = parting < 0.0 || (parting == 0.0 && (pulled < 0.0 || hangs_at_rest(parting, pulled, pair)));
-    return look;
+    const bool meet = surfaces_meet(m.overlap, a.radius);
+    const bool pressed = parting < 0.0 || (parting == 0.0 && pulled < 0.0);
+    look.event = (meet && pressed) || hangs_at_rest(parting, pulled, pair);
+    if (look.event || meet) return look;
   }
   // Even two of the fastest of the cluster need this long: if that is many sub-steps, leave it alone for half of it.
   // Where all are at rest nothing is said by that: they may fall.

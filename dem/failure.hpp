@@ -1,8 +1,9 @@
 #pragma once
-// Why the carriers' motion cannot go on, and whose.
+// Why the carriers' motion cannot go on, and whose; or that it shall not go on.
 
 #include <cstdint>
 #include <cstdio>
+#include <exception>
 #include <stdexcept>
 #include <string>
 
@@ -25,6 +26,12 @@ class Failure : public std::runtime_error {
   }
 
   std::int64_t carrier_;
+};
+
+/// Models::asked_to_stop said so within a step. The carriers are as before it.
+class Interrupted : public std::exception {
+ public:
+  const char* what() const noexcept override { return "dem: asked to stop within a step"; }
 };
 
 }  // namespace puffin::dem

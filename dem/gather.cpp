@@ -11,6 +11,7 @@
 #include "dem/first_touch.hpp"
 #include "dem/meeting.hpp"
 #include "dem/parts.hpp"
+#include "dem/placed_contact.hpp"
 
 namespace puffin::dem {
 namespace {
@@ -32,15 +33,13 @@ double course_gap(double duration, const Carriers& all, std::int32_t i, std::int
   return (p + time * w).norm() - all.radius[i] - all.radius[j];
 }
 
-constexpr double touching = 1e-9;  // of the radius, as in contact_step.cpp
-
 /// True if a wall may be touched within the step.
 bool may_touch_wall(double duration, const Vector3d& x, const Vector3d& v, const Vector3d& a, double radius,
                     double margin, const WallCache& cache) {
   const double way = v.norm() * duration;
   for (const WallPlane& plane : cache.planes) {
     const double gap = plane.gap(x, radius) - margin;
-    if (gap <= touching * radius && v.isZero(0.0)) return true;  // placed there: it may hang (placed_contact.hpp)
+    if (gap <= placed_gap && v.isZero(0.0)) return true;  // placed there: it may hang
     if (gap < 0.0 || first_zero(gap, plane.normal.dot(v), plane.normal.dot(a), duration) <= duration) return true;
     if (way > largest_trust * radius && gap < way) return true;
   }
@@ -77,7 +76,9 @@ void find_pairs(double duration, const State& state, Gathering& g) {
         const Vector3d p = x - all.position[j], w = v - all.velocity[j];
         const double reach = all.radius[i] + all.radius[j] + margin;
         const double p2 = p.squaredNorm(), pw = p.dot(w), w2 = w.squaredNorm();
-        if (p2 > reach * reach) {
+        if (w2 == 0.0) {  // placed there: they may hang
+          if (p2 > (reach + placed_gap) * (reach + placed_gap)) continue;
+        } else if (p2 > reach * reach) {
           if (pw >= 0.0) continue;
           const double time = std::min(duration, -pw / w2);
           if (p2 + time * (2.0 * pw + time * w2) > reach * reach) continue;

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <variant>
 
@@ -118,6 +119,8 @@ struct Models {
   bool rotation = true;                               // false: no spin; friction acts on the translation alone
   OnWall on_wall = OnWall::bounce;
   Integration integration;
+  /// Asked within a step that takes long, by any thread; true: advance() throws Interrupted (failure.hpp).
+  std::function<bool()> asked_to_stop = nullptr;
 };
 
 /// Throws std::invalid_argument, naming the value and what to do, unless all values make sense.

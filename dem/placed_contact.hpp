@@ -7,11 +7,13 @@
 
 namespace puffin::dem {
 
-/// Two surfaces that touch, at rest against each other, pulled apart by less than their pull-off force: placed so, for
-/// nothing that has moved comes to rest to the last bit.
+constexpr double placed_gap = 4e-10;  // [m] adhesion is at its full force so near, and no case places carriers better
+
+/// Two surfaces no farther apart than placed_gap, at rest against each other, pulled apart by nothing or by less than
+/// their pull-off force: placed so, for nothing that has moved comes to rest to the last bit.
 /// in: speed of parting [m/s], acceleration apart [m/s^2].
 inline bool hangs_at_rest(double parting, double pulled, const PairLaw& pair) {
-  return parting == 0.0 && pulled > 0.0 && pulled * pair.mass < pair.largest_pull();
+  return parting == 0.0 && pulled >= 0.0 && pulled * pair.mass < pair.largest_pull();
 }
 
 /// Overlap [m] at which a contact pulls back with `force` [N], 0 < force < pull-off. A bond: its stretched spring. DMT:

@@ -8,6 +8,7 @@
 #include "dem/adhesion_spread.hpp"
 #include "dem/cluster.hpp"
 #include "dem/contact_step.hpp"
+#include "dem/first_touch.hpp"
 #include "dem/friction.hpp"
 #include "dem/meeting.hpp"
 
@@ -65,6 +66,7 @@ Rules::Rules(const Models& models)
       rotation(models.rotation),
       on_wall(models.on_wall),
       integration(models.integration),
+      asked_to_stop(models.asked_to_stop),
       carrier_springs(springs_of(carrier, *this)),
       wall_springs(springs_of(wall, *this)) {}
 
@@ -228,6 +230,29 @@ void match_walls(std::int32_t b, double time, const Rules& rules, Cluster& clust
     if (cluster.live(i)) end_contact(time, i, cluster);
     cluster.block(i).phase[i % Springs::lanes] = lane::lost;
   }
+}
+
+double time_of_flight(double horizon, const Cluster& cluster) {
+  double first = horizon;
+  for (std::size_t i = 0; i < cluster.touches.size(); ++i) {
+    const Springs& s = cluster.block(i);
+    const std::size_t l = i % Springs::lanes;
+    if (s.phase[l] == lane::lost) continue;
+    const Touch& touch = cluster.touches[i];
+    const Body& a = cluster.bodies[touch.a];
+    const Eigen::Vector3d acceleration = cluster.records[touch.a].acceleration;
+    if (touch.b >= 0) {
+      const Body& b = cluster.bodies[touch.b];
+      first = std::min(first, first_touch(vec(a.x) - vec(b.x), vec(a.v) - vec(b.v),
+                                          acceleration - cluster.records[touch.b].acceleration,
+                                          cluster.constants[touch.pair].reach, first));
+    } else {
+      const Eigen::Vector3d& n = touch.plane.normal;
+      first =
+          std::min(first, first_zero(touch.plane.gap(vec(a.x), a.radius), n.dot(vec(a.v)), n.dot(acceleration), first));
+    }
+  }
+  return first;
 }
 
 }  // namespace puffin::dem

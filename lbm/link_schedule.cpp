@@ -148,7 +148,7 @@ Waiting::Range Waiting::ready(int chunk, int begin) const {
   return {first[chunk], static_cast<std::size_t>(late - from)};
 }
 
-LinkSchedule schedule_links(const Rows& rows, const Links& links) {
+LinkSchedule schedule_links(const Rows& rows, const Links& links, const std::vector<std::uint8_t>& fluid) {
   const std::vector<std::int32_t> chunk = chunk_of_runs(rows);
   const std::size_t chunks = rows.chunks().size();
   std::vector<Item> runs, cells;
@@ -177,7 +177,7 @@ LinkSchedule schedule_links(const Rows& rows, const Links& links) {
   const auto chunk_of_link = [&](const OpeningLink& link) { return chunk[link.run]; };
   schedule.inlets = first_of_chunks(links.inlets, chunks, chunk_of_link);
   schedule.outlets = first_of_chunks(links.outlets, chunks, chunk_of_link);
-  schedule.outlet_sources = find_outlet_sources(rows, links.outlets);
+  schedule.outlet_sources = find_outlet_sources(rows, links.outlets, fluid);
   return schedule;
 }
 

@@ -37,6 +37,8 @@ struct Waiting {
 
 /// Where what comes back along an outlet link is read. Cells are named by the number of their first outlet link.
 struct OutletSource {
+  /// Whether the outlet ends a straight passage, as find_outlet_sources() says.
+  bool straight = false;
   /// The neighbour beside the link's own cell, one step on along the outlet as the link goes, where that is a cell
   /// before the outlet too; else the own cell.
   std::int32_t beside = 0;
@@ -63,6 +65,7 @@ struct LinkSchedule {
 /// Run that holds an active slot.
 std::int32_t run_of(const Rows& rows, std::ptrdiff_t slot);
 
-LinkSchedule schedule_links(const Rows& rows, const Links& links);
+/// fluid: by slot; empty: every active cell is.
+LinkSchedule schedule_links(const Rows& rows, const Links& links, const std::vector<std::uint8_t>& fluid);
 
 }  // namespace puffin::lbm

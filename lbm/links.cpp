@@ -243,7 +243,7 @@ Links build_links(const Rows& rows, const LinkGeometry& surface, WallScheme sche
   }
 
   join_slip_links(rows, links.slip);
-  links.schedule = std::make_shared<const LinkSchedule>(schedule_links(rows, links));
+  links.schedule = std::make_shared<const LinkSchedule>(schedule_links(rows, links, kinds.fluid));
 
   std::vector<Links::Image> images, corners;
   for (const auto& [ghost, active] : rows.periodic_images()) {

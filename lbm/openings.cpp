@@ -61,21 +61,56 @@ void apply_inlets(const Air& air, const Drive& drive, Parity last, std::size_t f
   }
 }
 
+namespace {
+
+/// Direction of the faces of each straight outlet, by patch; 0 for the others.
+std::map<int, int> find_straight(const Rows& rows, const std::vector<OpeningLink>& outlets,
+                                 const std::vector<std::uint8_t>& fluid) {
+  const auto is_fluid = [&](std::ptrdiff_t slot) { return fluid.empty() || fluid[slot] != 0; };
+  const auto closed = [&](std::ptrdiff_t slot, int direction) {  // by an outlet
+    for (std::int32_t n = first_outlet_link(outlets, slot);
+         n >= 0 && n < static_cast<std::int32_t>(outlets.size()) && outlets[n].slot == slot; ++n)
+      if (outlets[n].direction == direction) return true;
+    return false;
+  };
+  std::map<int, int> straight;
+  for (const OpeningLink& link : outlets) {
+    const int out = link.direction;
+    const auto known = straight.try_emplace(link.patch, -1).first;  // -1: no face seen yet
+    if (out > 6 || known->second == 0 || !is_fluid(link.slot)) continue;
+    if (known->second < 0) known->second = out;
+    if (known->second != out) known->second = 0;
+    for (int beside = 1; beside <= 6; ++beside) {
+      if (beside == out || beside == d3q19::opposite(out)) continue;
+      auto cell = rows.cell(link.slot);
+      for (int d = 0; d < 3; ++d) cell[d] += d3q19::velocity[beside][d];
+      const std::ptrdiff_t next = rows.active_slot(cell[0], cell[1], cell[2]);
+      if (next >= 0 && is_fluid(next) && !closed(next, out)) known->second = 0;
+    }
+  }
+  return straight;
+}
+
+}  // namespace
+
 std::int32_t first_outlet_link(const std::vector<OpeningLink>& outlets, std::ptrdiff_t slot) {
   const auto at = std::lower_bound(outlets.begin(), outlets.end(), slot,
                                    [](const OpeningLink& link, std::ptrdiff_t s) { return link.slot < s; });
   return at != outlets.end() && at->slot == slot ? static_cast<std::int32_t>(at - outlets.begin()) : -1;
 }
 
-std::vector<OutletSource> find_outlet_sources(const Rows& rows, const std::vector<OpeningLink>& outlets) {
+std::vector<OutletSource> find_outlet_sources(const Rows& rows, const std::vector<OpeningLink>& outlets,
+                                              const std::vector<std::uint8_t>& fluid) {
   std::map<int, std::array<std::size_t, 7>> faces;  // per patch: faces of cells that an outlet closes, per direction
   for (const OpeningLink& link : outlets)
     if (link.direction <= 6) ++faces[link.patch][link.direction];
+  const std::map<int, int> straight = find_straight(rows, outlets, fluid);
   std::vector<OutletSource> sources;
   for (const OpeningLink& link : outlets) {
     const std::int32_t own = first_outlet_link(outlets, link.slot);
     const auto& closed = faces[link.patch];
     OutletSource source;
+    source.straight = straight.at(link.patch) > 0;
     source.out = static_cast<std::int8_t>(std::max_element(closed.begin() + 1, closed.end()) - closed.begin());
     bool has_face = false;
     for (std::size_t n = own; n < outlets.size() && outlets[n].slot == link.slot; ++n) {
@@ -129,7 +164,9 @@ std::int64_t apply_outlets(const Air& air, const Drive& drive, const std::vector
     const Vec3 c(ci[0], ci[1], ci[2]);
     const double w = d3q19::weight[i], outside = drive.density_excess[link.patch];
     double back = 0.0;
-    if (state[source.judge].velocity.dot(air.normal[link.patch]) >= 0.0) {
+    const Vec3& judged = state[source.straight ? static_cast<std::size_t>(source.judge) : cell].velocity;
+    const bool leaves = judged.dot(air.normal[link.patch]) >= 0.0;
+    if (leaves && source.straight) {
       const OpeningLink& from = list[source.beside];
       const OutletAir& there = state[source.beside];
       const auto& out = d3q19::velocity[source.out];
@@ -142,7 +179,7 @@ std::int64_t apply_outlets(const Air& air, const Drive& drive, const std::vector
     } else {
       Vec3 u = state[cell].velocity;
       const double head = 1.5 * u.squaredNorm();  // its dynamic pressure, as an excess of density
-      if (head > outside - lowest) {
+      if (!leaves && head > outside - lowest) {
         u *= std::sqrt((outside - lowest) / head);
         if (counted != link.slot) ++cut;
         counted = link.slot;

@@ -56,6 +56,7 @@ void describe(Fields& io, Line& line, double end) {
   if (io.reading() && line.from == line.to) io.problem("to", "is the place 'from' itself; a line needs a length");
   io.number("average_from", line.average_from, unit::time, Range::non_negative,
             derived(end, "stop.time: the end alone"));
+  if (io.reading() && line.average_from > end) io.problem("average_from", "lies after stop.time: nothing is averaged");
 }
 
 void describe(Fields& io, Checkpoints& c) {

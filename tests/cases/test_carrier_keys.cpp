@@ -1,4 +1,4 @@
-// Keys of [carriers] with several forms: sizes, spread surface energies, elasticity, friction; and the settled bed.
+// Keys of [carriers] with several forms: sizes, spread surface energies, elasticity, friction.
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <fstream>
 #include <limits>
 
-#include "cases/settle.hpp"
+#include "cases/fill.hpp"
 #include "cases/size_distribution.hpp"
 #include "cases/write_case.hpp"
 #include "tests/cases/sample_case.hpp"
@@ -25,18 +25,6 @@ std::string joined(const std::vector<std::string>& lines) {
   for (const auto& line : lines) all += line + "\n";
   return all;
 }
-
-/// A floor at z = 0 without end.
-class Floor : public dem::Walls {
- public:
-  dem::RestOfWall near(const Vec3& c, double reach, std::vector<dem::WallTouch>& touches) const override {
-    touches.clear();
-    if (c.z() <= reach) touches.push_back({{c.x(), c.y(), 0.0}, c.z(), 0});
-    return {};
-  }
-  double clearance(const Vec3& c, double limit) const override { return std::clamp(c.z(), 0.0, limit); }
-  bool inside(const Vec3& c) const override { return c.z() > 0.0; }
-};
 
 }  // namespace
 
@@ -145,43 +133,22 @@ TEST(Sizes, ATableIsFollowedAndItsMistakesNameTheLine) {
   std::filesystem::remove(file);
 }
 
-// Forty carriers dropped on a floor: all at rest on it or on each other, none below it; loosened to half its density it
-// has that within 0.2 %, on the same floor.
-TEST(Settle, ABedComesToRestAndIsLoosenedToTheDensityAskedFor) {
-  dem::Models models;
-  models.gravity = {0, 0, -9.81};
-  std::get<dem::LinearContact>(models.carrier.contact).friction = dem::ConstantFriction{0.5};
-  models.carrier.adhesion = dem::Hamaker{3.6e-3};
-  models.wall = models.carrier;
-  std::vector<dem::Carrier> carriers;
-  for (int n = 0; n < 40; ++n) {
-    dem::Carrier c;
-    c.id = n;
-    c.radius = 75e-6;
-    c.mass = 1520.0 * 4.0 / 3.0 * M_PI * std::pow(c.radius, 3);
-    const int column = n % 3, row = n / 3 % 3, layer = n / 9;
-    c.position = {180e-6 * column + 7e-6 * (n % 5), 180e-6 * row - 5e-6 * (n % 7), 180e-6 * layer + 90e-6};
-    carriers.push_back(c);
-  }
-  const SettledBed bed = settle(models, Floor(), carriers);
-  EXPECT_TRUE(bed.at_rest);
-  double lowest = 1.0;
-  for (std::size_t n = 0; n < carriers.size(); ++n) {
-    EXPECT_GT(bed.positions[n].z(), 0.98 * 75e-6);
-    carriers[n].position = bed.positions[n];
-    lowest = std::min(lowest, bed.positions[n].z());
-  }
-  const double settled = bulk_density(carriers, Vec3::UnitZ());
-  EXPECT_GT(settled, 300.0);
-  EXPECT_LT(settled, 1100.0);
-  loosen(0.5 * settled, Vec3::UnitZ(), carriers);
-  EXPECT_NEAR(bulk_density(carriers, Vec3::UnitZ()), 0.5 * settled, 2e-3 * settled);
-  double still_lowest = 1.0;
-  for (const auto& c : carriers) still_lowest = std::min(still_lowest, c.position.z());
-  EXPECT_NEAR(still_lowest, lowest, 1e-12);
-  EXPECT_THROW(loosen(3.0 * settled, Vec3::UnitZ(), carriers), std::invalid_argument);
-  models.gravity.setZero();
-  EXPECT_THROW(settle(models, Floor(), carriers), std::invalid_argument);
+// On a square floor the stack stands in the circle that fits into it, and every sphere is in the fluid (dose_of throws
+// otherwise); the circle of the square's area would stick out by 0.064 mm on each side.
+TEST(CarrierKeys, ADoseOnASquareFloorStandsWithinItsSides) {
+  const Case c = parse(
+      "schema = 1\nname = \"square\"\n[geometry]\ngenerator = \"box\"\n[geometry.box]\nx = \"1 mm\"\ny = \"1 mm\"\n"
+      "z = \"2 mm\"\n[[geometry.patch]]\nname = \"tray\"\nselect = \"plane:z-min\"\n[air]\nmodel = "
+      "\"none\"\n[carriers]\n"
+      "count = 100\ndensity = 1520\ndiameter = \"100 um\"\nfill = { shape = \"cylinder\", at = \"tray\" "
+      "}\n[stop]\ntime = \"1 ms\"\n");
+  const Surface surface = load_surface(c);
+  const lbm::geometry::TriangleTree tree(surface.mesh);
+  const Dose dose = dose_of(c, surface, tree);
+  ASSERT_EQ(dose.positions.size(), 100U);
+  double reach = 0.0;
+  for (const Vec3& p : dose.positions) reach = std::max(reach, std::hypot(p.x() - 0.5e-3, p.y() - 0.5e-3));
+  EXPECT_GT(reach, 0.3e-3);  // and uses it
 }
 
 }  // namespace puffin::cases

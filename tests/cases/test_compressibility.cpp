@@ -1,11 +1,14 @@
-// The step that a lattice takes so that its density hardly answers the pressures that a case wants.
+// The step that a lattice takes so that its density hardly answers the pressures that a case wants; the air at the
+// start.
 
 #include "cases/compressibility.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <initializer_list>
 
+#include "cases/initial_air.hpp"
 #include "tests/cases/sample_case.hpp"
 
 namespace puffin::cases {
@@ -98,6 +101,45 @@ TEST(Compressibility, AStepGivenInSecondsStaysWithAWarning) {
   const LatticeSpeed speed = lattice_speed(c, load_surface(c), 0.1);
   EXPECT_EQ(speed.value, c.numerics.lattice_speed);
   EXPECT_NE(speed.warning.find("by 72 %"), std::string::npos) << speed.warning;
+}
+
+// 3 and 5 Pa have 3 in common, -3 and -5 Pa -3, -3 and 5 nothing, no outlet nothing.
+TEST(Compressibility, OutletsHaveThePressureNearestToZeroInCommon) {
+  const auto common = [](std::initializer_list<double> pressures) {
+    Case c;
+    for (const double p : pressures) {
+      Boundary b;
+      b.type = BoundaryType::pressure_outlet, b.pressure = p;
+      c.air.boundaries.push_back(b);
+    }
+    return common_pressure(c);
+  };
+  EXPECT_EQ(common({3.0, 5.0}), 3.0);
+  EXPECT_EQ(common({-5.0, -3.0}), -3.0);
+  EXPECT_EQ(common({-3.0, 5.0}), 0.0);
+  EXPECT_EQ(common({}), 0.0);
+}
+
+// Momentum: rho (u . grad) u = -grad p exactly, by central differences of 1e-4 of the box; and no divergence.
+TEST(InitialAir, TaylorGreenInARectangleAndASlabIsSteadyWithoutFriction) {
+  Air air;
+  air.density = 1.2, air.initial = InitialField::taylor_green, air.initial_velocity = {0.3, 0.0, 0.4};
+  for (const Vec3& box : {Vec3(1.0, 2.0, 0.7), Vec3(1.0, 0.03, 2.0), Vec3(0.1, 1.0, 1.5)}) {
+    const auto start = initial_air(air, Vec3(0.2, 0.0, -0.1), box);
+    ASSERT_TRUE(start);
+    const Vec3 x = Vec3(0.2, 0.0, -0.1) + box.cwiseProduct(Vec3(0.13, 0.29, 0.41));
+    Eigen::Matrix3d gradient;
+    Vec3 slope;
+    for (int d = 0; d < 3; ++d) {
+      const Vec3 h = 1e-4 * box[d] * Vec3::Unit(d);
+      gradient.col(d) = (start->velocity(x + h) - start->velocity(x - h)) / (2.0 * h[d]);
+      slope[d] = (start->pressure(x + h) - start->pressure(x - h)) / (2.0 * h[d]);
+    }
+    const Vec3 inertia = air.density * gradient * start->velocity(x);
+    EXPECT_GT(inertia.norm(), 0.05) << box.transpose();
+    EXPECT_NEAR((inertia + slope).norm(), 0.0, 1e-5 * inertia.norm()) << box.transpose();
+    EXPECT_NEAR(gradient.trace(), 0.0, 1e-6 * gradient.norm()) << box.transpose();
+  }
 }
 
 }  // namespace

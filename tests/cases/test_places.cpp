@@ -53,6 +53,19 @@ TEST(Places, DeepOverlapsAreSaidAndContactsAreNot) {
       << warnings[1];
 }
 
+TEST(Places, CarriersAreNoPartOfPeriodicPatchesAndMovingWalls) {
+  Case c = scene(at("[1e-3, 1e-3, 1e-3]"), "");
+  EXPECT_TRUE(carrier_place_warnings(c, tree_of(c)).empty());
+  Boundary periodic, moving;
+  periodic.patch = "x-min", periodic.with = "x-max", periodic.type = BoundaryType::periodic;
+  moving.patch = "z-max", moving.type = BoundaryType::moving_wall;
+  c.air.boundaries = {periodic, moving};
+  const auto warnings = carrier_place_warnings(c, tree_of(c));
+  ASSERT_EQ(warnings.size(), 2U);
+  EXPECT_NE(warnings[0].find("'x-min' and 'x-max'"), std::string::npos) << warnings[0];
+  EXPECT_NE(warnings[1].find("'z-max'"), std::string::npos) << warnings[1];
+}
+
 TEST(Places, ProbesPlanesSlicesAndBoxesBeyondTheGeometryAreAllNamed) {
   const Case c = scene(at("[1e-3, 1e-3, 1e-3]"), R"toml(
 probe = [{ name = "in", at = [1e-3, 1e-3, 1e-3] }, { name = "out", at = [1e-3, 1e-3, 9e-3] }]

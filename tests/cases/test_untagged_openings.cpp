@@ -16,6 +16,29 @@ TEST(UntaggedOpenings, AreKnownByAWordOfTheirName) {
     EXPECT_FALSE(is_called_opening(name)) << name;
 }
 
+// Without a lattice: by their usual names or tagged by hand, unless something says that they are closed.
+TEST(UntaggedOpenings, AreOpenUnsaidWhereNoLatticeIs) {
+  Case c;
+  c.air.model = AirModel::frozen;
+  c.carriers.emplace();
+  c.carriers->fill.emplace();
+  c.carriers->fill->at = "tray";
+  for (const char* name : {"lid", "tray", "wall", "shut", "left"}) {
+    Patch patch;
+    patch.name = name;
+    c.geometry.patches.push_back(patch);
+  }
+  Boundary shut, pair;
+  shut.patch = "shut", shut.type = BoundaryType::wall;
+  pair.patch = "left", pair.with = "right", pair.type = BoundaryType::periodic;
+  c.air.boundaries = {shut, pair};
+  for (const char* name : {"inlet", "outlet", "lid"}) EXPECT_TRUE(is_open_unsaid(c, name)) << name;
+  for (const char* name : {"tray", "wall", "pocket", "obstacle", "shut", "left", "right", "x-min"})
+    EXPECT_FALSE(is_open_unsaid(c, name)) << name;
+  c.air.model = AirModel::lbm;
+  EXPECT_FALSE(is_open_unsaid(c, "outlet"));
+}
+
 TEST(UntaggedOpenings, AreRefusedAllAtOnceUnlessABoundarySaysWhatHappensThere) {
   Case c;
   c.air.model = AirModel::lbm;

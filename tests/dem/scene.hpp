@@ -40,8 +40,8 @@ class PlaneWalls : public Walls {
   }
   bool inside(const Eigen::Vector3d& point) const override {
     for (const Plane& plane : planes_)
-      if (plane.normal.dot(point - plane.point) < 0.0) return true;
-    return false;
+      if (plane.normal.dot(point - plane.point) < 0.0) return false;
+    return true;
   }
 
  private:

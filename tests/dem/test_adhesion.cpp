@@ -89,6 +89,27 @@ TEST(Adhesion, ACarrierPlacedOnAWallHoldsUpToItsPullOffForceWhateverTheStiffness
     }
 }
 
+// Placed touching, to the digits of a case file or 0.3 nm apart, two at rest hold each other though at first nothing
+// pulls them apart: both fall alike until the ceiling holds the upper one. Its pull-off force is 600 times their
+// weight.
+TEST(Adhesion, CarriersPlacedTouchingHoldEachOther) {
+  for (const double gap : {0.0, 3e-10})
+    for (const bool adhesive : {true, false}) {
+      Scene s = sticky_floor(0.5, {});
+      s.walls = PlaneWalls({{{0, 0, 2e-3}, -Vector3d::UnitZ()}});
+      if (!adhesive) s.models.carrier.adhesion = NoAdhesion{};
+      s.models.gravity = {0, 0, -9.81};
+      s.add(lactose(1, {1e-3, 0, 1.965e-3}));
+      s.add(lactose(2, {1e-3, 0, 1.895e-3 - gap}));
+      s.run(2e-3, 2e-5);
+      EXPECT_NEAR(s.x(0).z(), 1.965e-3, 2.0 * d0);
+      if (adhesive)
+        EXPECT_NEAR(s.x(1).z(), 1.895e-3 - gap, 4.0 * d0) << gap;
+      else
+        EXPECT_NEAR(s.x(1).z(), 1.895e-3 - 0.5 * 9.81 * 4e-6, 1e-8);
+    }
+}
+
 // Facts 3.12: for 10 carriers a parcel, l = 2.154, adhesion per mass is x 0.215, 0.464, 1 of a single carrier's.
 TEST(Adhesion, ParcelScalingKeepsForcePerLengthAreaOrMass) {
   const double wall = std::numeric_limits<double>::infinity(), l = std::cbrt(10.0);

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "dem/failure.hpp"
 #include "dem/free_flight.hpp"
 #include "tests/dem/scene.hpp"
 
@@ -160,4 +161,28 @@ TEST(Motion, RollingResistanceStopsARollingSphere) {
   s.run(1.5, 2e-4);
   EXPECT_NEAR(s.x(0).x(), v * v / (2.0 * 5.0 / 7.0 * 0.05 * 9.81), 0.03 * 0.0571);
   EXPECT_LT(s.v(0).norm(), 1e-4);
+}
+
+// A carrier that stays on the floor, glued and 1 kN/m stiff: m = 2.7e-10 kg makes t_c = 1.6 us, so a step of 0.5 s is
+// 6 million sub-steps. It is asked after each million, and given up at once; the carriers are where they were. A step
+// of 1 ms asks nothing.
+TEST(Motion, AStepThatTakesLongIsGivenUpWhenAskedTo) {
+  Scene s;
+  s.walls = PlaneWalls::floor();
+  LinearContact stiff;
+  stiff.stiffness = 1e3;
+  s.models.wall = {stiff, Hamaker{3.6e-3}};
+  s.models.integration.sleep = false;
+  s.add(lactose(1, {0, 0, 35e-6 + 1e-9}, {0, 0, -1e-3}));
+  s.step(1e-3);
+  const Vector3d before = s.x(0);
+  int asked = 0;
+  s.models.asked_to_stop = [&] { return ++asked == 3; };
+  s.step(1e-3);
+  EXPECT_EQ(asked, 0);
+  const Vector3d here = s.x(0);
+  EXPECT_THROW(s.step(0.5), Interrupted);
+  EXPECT_EQ(asked, 3);
+  EXPECT_EQ(s.x(0), here);
+  EXPECT_NEAR(here.z(), before.z(), 1e-9);
 }

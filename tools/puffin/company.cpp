@@ -13,13 +13,16 @@
 #include "cases/write_case.hpp"
 #include "coupling/advance_together.hpp"
 #include "coupling/health.hpp"
+#include "dem/failure.hpp"
 #include "tools/output/report.hpp"
 #include "tools/puffin/console.hpp"
 #include "tools/puffin/exit_codes.hpp"
 #include "tools/puffin/finished.hpp"
 #include "tools/puffin/lattice_limits.hpp"
+#include "tools/puffin/law_limits.hpp"
 #include "tools/puffin/opening.hpp"
 #include "tools/puffin/progress.hpp"
+#include "tools/puffin/signals.hpp"
 #include "tools/puffin/summarize.hpp"
 #include "tools/puffin/together.hpp"
 
@@ -29,8 +32,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
-volatile std::sig_atomic_t received = 0;
 
 /// One of the cases while it runs.
 struct Population {
@@ -78,15 +79,17 @@ class Company {
   int run() {
     try {
       for (Population& p : all_) alone(p, [&] { with_air(p, [&] { p.recorder->record(*p.simulation); }); });
-      while (received == 0 && std::any_of(all_.begin(), all_.end(), [](const Population& p) { return !p.ended; }))
+      while (Signals::received() == 0 &&
+             std::any_of(all_.begin(), all_.end(), [](const Population& p) { return !p.ended; }))
         step();
     } catch (const std::exception& e) {  // the air
       for (Population& p : all_)
         if (!p.ended) end(p, e);
     }
+    const int signal = Signals::received();
     for (Population& p : all_)
-      if (!p.ended) end(p, "stopped", stopped, received == SIGINT ? "interrupted" : "terminated");
-    if (received != 0) return received == SIGINT ? interrupted : stopped;
+      if (!p.ended) end(p, "stopped", stopped, signal == SIGINT ? "interrupted" : "terminated");
+    if (signal != 0) return signal == SIGINT ? interrupted : stopped;
     const auto bad = std::find_if(ends_.begin(), ends_.end(), [](const TogetherEnd& e) { return e.code != ok; });
     return bad == ends_.end() ? ok : bad->code;
   }
@@ -98,11 +101,12 @@ class Company {
     work();
   }
 
-  /// What goes wrong in it ends this population, and no other.
+  /// What goes wrong in it ends this population, and no other; what a signal broke off ends with all.
   template <class Work>
   void alone(Population& p, const Work& work) {
     try {
       work();
+    } catch (const dem::Interrupted&) {
     } catch (const std::exception& e) {
       end(p, e);
     }
@@ -113,6 +117,7 @@ class Company {
     Population p;
     p.out = given.out;
     p.simulation = built(c, given.case_file, options_.beds);
+    p.simulation->models.carriers.asked_to_stop = [] { return Signals::received() != 0; };
     const std::vector<std::string> warnings = first_warnings(*p.simulation);
     p.folder = std::make_unique<output::OutputFolder>(given.out, c.name);
     announce(*p.folder, c);
@@ -184,6 +189,7 @@ class Company {
   /// Outputs and health after an interval; whether it is at its end.
   static bool look_after(Population& p) {
     p.recorder->take_events(*p.simulation);
+    warn_beyond_laws(*p.simulation, p.simulation->warnings);
     p.recorder->record(*p.simulation);
     p.progress->update(*p.recorder, p.simulation->warnings, false);
     const std::int64_t steps = p.state().air->steps, next = p.simulation->models.steps_per_exchange_asleep;
@@ -281,13 +287,8 @@ int run_together(const TogetherOptions& given) {
   if (options.threads <= 0) options.threads = static_cast<int>(std::thread::hardware_concurrency());
   const oneapi::tbb::global_control control(oneapi::tbb::global_control::max_allowed_parallelism,
                                             static_cast<std::size_t>(options.threads));
-  received = 0;
-  const auto previous_term = std::signal(SIGTERM, [](int n) { received = n; });
-  const auto previous_int = std::signal(SIGINT, [](int n) { received = n; });
-  const int code = Company(options).run();
-  std::signal(SIGTERM, previous_term);
-  std::signal(SIGINT, previous_int);
-  return code;
+  const Signals signals;
+  return Company(options).run();
 }
 
 }  // namespace puffin::tools

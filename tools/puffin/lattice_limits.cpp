@@ -33,7 +33,8 @@ std::vector<std::string> lattice_warnings(const cases::Simulation& s) {
         text, sizeof text,
         "the density of the lattice's air differs by %.0f %% from place to place at the end (%.3g Pa): speeds "
         "and pressure drops err by up to as much; with numerics.lattice_speed = %.2g it would be %.0f %%",
-        100.0 * range, s.state.scale.pressure(range), s.lattice_speed * std::sqrt(good / range), 100.0 * good);
+        100.0 * range, s.state.scale.pressure_difference(range), s.lattice_speed * std::sqrt(good / range),
+        100.0 * good);
     list.emplace_back(text);
   }
   if (s.state.air && s.state.air->steps > 0 && s.state.extremes.min_tau > 1.0) {

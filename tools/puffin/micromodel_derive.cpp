@@ -50,7 +50,8 @@ void check_speeds(const std::vector<double>& speeds) {
   if (speeds.empty()) return;
   if (speeds.size() < 5 || !std::is_sorted(speeds.begin(), speeds.end(), std::less_equal<>()))
     throw UsageError(
-        "--speeds: the fitted law has five constants: give at least 5 speeds that rise, or none for the "
+        "--speeds: the law fitted to them (beside a table too) has five constants: give at least 5 speeds that rise, "
+        "or none for the "
         "default ones around the threshold");
 }
 

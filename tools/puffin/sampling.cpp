@@ -134,6 +134,7 @@ Totals read_totals(const cases::Simulation& s) {
     const double speed = s.state.scale.speed(), dx = s.state.air->rows.dx();
     totals.kinetic_energy = sums.energy * speed * speed / static_cast<double>(s.state.air->fluid_cells);
     totals.air_momentum = sums.momentum * (speed * s.models.air.density * dx * dx * dx);
+    for (const Vec3& impulse : s.state.impulse_on_air) totals.air_momentum += impulse;
   }
   const auto& c = s.state.carriers.carriers;
   for (std::size_t p = 0; p < c.size(); ++p) totals.carrier_momentum += c.mass[p] * c.velocity[p];
@@ -231,7 +232,11 @@ std::optional<PlaneReading> read_plane(const cases::Simulation& s, int axis, dou
 }
 
 ForceReader::ForceReader(const cases::Simulation& s) {
-  if (!s.state.air || !s.models.body_force || s.description.output.forces.empty()) return;
+  if (!s.state.air || s.description.output.forces.empty()) return;
+  outwards_.assign(s.surface.patches.names.size(), Vec3::Zero());
+  for (std::size_t t = 0; t < s.surface.mesh.triangles.size(); ++t)
+    outwards_[s.surface.patches.of_triangle[t]] += 0.5 * s.surface.mesh.area_vector(static_cast<int>(t));
+  if (!s.models.body_force) return;
   lbm::LinkGeometry surface;
   surface.mesh = &s.surface.mesh;
   surface.patch_of_triangle = s.surface.patches.of_triangle;
@@ -246,7 +251,7 @@ Vec3 ForceReader::read(const cases::Simulation& s, const std::string& patch) con
   for (int b = 0; b < static_cast<int>(air.boundaries.size()); ++b) {
     if (one >= 0 ? b != one : air.boundaries[b].kind != lbm::BoundaryKind::wall) continue;
     const auto f = lbm::force_on_patch(air, b);
-    sum += s.state.scale.force() * Vec3(f[0], f[1], f[2]);
+    sum += s.state.scale.force() * Vec3(f[0], f[1], f[2]) + s.state.scale.base * outwards_.at(b);
     if (!excess_.empty()) excess += excess_[b];
   }
   if (excess != 0.0) sum -= excess * std::pow(s.state.scale.dx, 3) * s.models.body_force(s.state.time);

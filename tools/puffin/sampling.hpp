@@ -84,6 +84,7 @@ class ForceReader {
   coupling::Vec3 read(const cases::Simulation& s, const std::string& patch) const;
 
  private:
+  std::vector<coupling::Vec3> outwards_;  // area, as a vector, per boundary [m^2]; empty: no forces
   std::vector<double> excess_;  // volume on which a body force acts too much, per boundary [dx^3]; empty: no body force
 };
 

@@ -5,10 +5,13 @@
 #include <csignal>
 #include <stdexcept>
 
+#include "dem/failure.hpp"
 #include "tools/puffin/console.hpp"
 #include "tools/puffin/exit_codes.hpp"
 #include "tools/puffin/finished.hpp"
 #include "tools/puffin/lattice_limits.hpp"
+#include "tools/puffin/law_limits.hpp"
+#include "tools/puffin/signals.hpp"
 
 namespace puffin::tools {
 
@@ -18,29 +21,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int most_retreats = 3;
 constexpr std::int64_t steps_between_memories = 500;  // air steps; see Stepping::steps
-
-volatile std::sig_atomic_t received_signal = 0;
-
-/// While it lives, SIGTERM and Ctrl-C are only noted, and a file that grows too long is an error of its writer.
-class Signals {
- public:
-  Signals() {
-    received_signal = 0;
-    const auto note = [](int number) { received_signal = number; };
-    terminate_ = std::signal(SIGTERM, note);
-    interrupt_ = std::signal(SIGINT, note);
-  }
-  ~Signals() {
-    std::signal(SIGTERM, terminate_);
-    std::signal(SIGINT, interrupt_);
-  }
-  Signals(const Signals&) = delete;
-  Signals& operator=(const Signals&) = delete;
-
- private:
-  void (*terminate_)(int);
-  void (*interrupt_)(int);
-};
+constexpr double patience = 10.0;                     // [s] with a step, of one who asked to stop
 
 }  // namespace
 
@@ -60,6 +41,7 @@ Stepping::Stepping(cases::Simulation& s, const output::OutputFolder& folder, boo
       store_(s, folder) {
   s.description.stop.time = std::min(s.description.stop.time, until);
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow: its writer says so
+  s.models.carriers.asked_to_stop = [this] { return wall_clock() - step_began_ > patience && shall_stop(); };
   if (folder.resumed()) {
     coupling::save(s.state, good_);  // its size, before anything moved, bounds what a checkpoint can be
     const std::size_t longest = 4 * good_.size() + (std::size_t{1} << 30);
@@ -96,6 +78,7 @@ void Stepping::step() {
   health_.check_impacts(s_.models, s_.state);
   const auto writing = Clock::now();
   recorder_->take_events(s_);
+  warn_beyond_laws(s_, memory_.warnings);
   recorder_->record(s_);
   progress_->update(*recorder_, memory_.warnings, false);
   output_seconds_ += std::chrono::duration<double>(Clock::now() - writing).count();
@@ -130,6 +113,27 @@ void Stepping::write_checkpoint(coupling::Checkpoint& checkpoint) {
   output_seconds_ += std::chrono::duration<double>(Clock::now() - writing).count();
 }
 
+/// The outputs as they were at the last good state.
+void Stepping::reopen_outputs() {
+  const RecorderState outputs = restored(good_.at("outputs"));
+  recorder_.reset();  // its files are closed before they are cut
+  recorder_ = std::make_unique<Recorder>(s_, folder_, &outputs);
+  checked_ = remembered_ = steps();
+}
+
+/// By a signal or the wall time. Any thread may ask.
+bool Stepping::shall_stop() const { return Signals::received() != 0 || wall_clock() > walltime_; }
+
+Ending Stepping::stop() {
+  write_checkpoint(good_);
+  const int signal = Signals::received();
+  return {"stopped",
+          signal == SIGINT    ? "interrupted"
+          : signal == SIGTERM ? "terminated"
+                              : "wall time reached",
+          signal == SIGINT ? interrupted : stopped};
+}
+
 bool Stepping::retreat(const std::string& why) {
   if (memory_.retreats >= most_retreats) return false;
   const double failed_at = s_.state.time;
@@ -143,11 +147,18 @@ bool Stepping::retreat(const std::string& why) {
   memory_.warnings.push_back(text + why);
   progress_->finish();  // the line on the terminal ends
   log_warning(memory_.warnings.back());
-  const RecorderState outputs = restored(good_.at("outputs"));
-  recorder_.reset();  // its files are closed before they are cut
-  recorder_ = std::make_unique<Recorder>(s_, folder_, &outputs);
-  checked_ = remembered_ = steps();
+  reopen_outputs();
   return true;
+}
+
+/// If the last step took so long that the next may be given up, what comes before that is remembered.
+void Stepping::get_ready() {
+  const double now = wall_clock();
+  if (now - step_began_ > patience)
+    remember(before_slow_);
+  else if (!before_slow_.sections.empty())
+    before_slow_ = {};
+  step_began_ = now;
 }
 
 Ending Stepping::run() {
@@ -155,25 +166,26 @@ Ending Stepping::run() {
   for (;;) try {
       recorder_->record(s_);
       while (!finished(s_)) {
+        get_ready();
         step();
         // The step that --until cut short is none of the whole run: what goes on begins before it.
         if (shortened_ && at_stop_time(s_)) break;
         look_after();
-        if (received_signal == 0 && wall_clock() <= walltime_) continue;
+        if (!shall_stop()) continue;
         health_.check(s_.models, s_.state);
         remember(good_);
-        write_checkpoint(good_);
-        return {"stopped",
-                received_signal == SIGINT    ? "interrupted"
-                : received_signal == SIGTERM ? "terminated"
-                                             : "wall time reached",
-                received_signal == SIGINT ? interrupted : stopped};
+        return stop();
       }
       health_.check(s_.models, s_.state);
       Ending ending;
       ending.goes_on = shortened_ && at_stop_time(s_);
       if (ending.goes_on) write_checkpoint(good_);
       return ending;
+    } catch (const dem::Interrupted&) {  // within a step that takes long: what goes on begins before it
+      if (!before_slow_.sections.empty()) good_ = before_slow_;
+      coupling::restore(good_, s_.state);
+      reopen_outputs();
+      return stop();
     } catch (const coupling::Diverged& e) {
       if (retreat(e.what())) continue;
       write_checkpoint(good_);

@@ -38,7 +38,8 @@ class Stepping {
 
   /// Steps until the end, a signal, the wall time or a failure. After a failure the last good state is restored and the
   /// time step halved, at most three times; every hundred steps the health of the state is asked for, and every five
-  /// hundred it is remembered. Before it returns a code other than 0 there is a checkpoint of the last good state.
+  /// hundred it is remembered. A step whose contacts take longer than ten seconds is given up for a signal or the wall
+  /// time. Before it returns a code other than 0 there is a checkpoint of the last good state.
   Ending run();
   /// Writes what belongs to the end of the outputs.
   void finish(const Ending& ending);
@@ -53,6 +54,10 @@ class Stepping {
   void remember(coupling::Checkpoint& checkpoint) const;
   void write_checkpoint(coupling::Checkpoint& checkpoint);
   bool retreat(const std::string& why);
+  void reopen_outputs();
+  void get_ready();
+  bool shall_stop() const;
+  Ending stop();
   double wall_clock() const;
   std::int64_t steps() const;
 
@@ -66,7 +71,9 @@ class Stepping {
   RunMemory memory_;
   std::unique_ptr<Recorder> recorder_;
   std::unique_ptr<Progress> progress_;
-  coupling::Checkpoint good_;  // the last good state
+  coupling::Checkpoint good_;         // the last good state
+  coupling::Checkpoint before_slow_;  // before the present step, if the one before it took long
+  double step_began_ = 0.0;           // [s] of wall_clock()
   std::int64_t checked_ = 0, remembered_ = 0;
   double output_seconds_ = 0.0;
 };

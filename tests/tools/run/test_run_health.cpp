@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "tests/tools/run/small_dose.hpp"
+#include "tests/tools/run/towards_the_floor.hpp"
 #include "tools/output/output_folder.hpp"
 #include "tools/output/summary.hpp"
 
@@ -13,42 +14,6 @@ namespace {
 
 using namespace puffin;
 
-/// One carrier of 70 um in free flight, nothing else acts on it, towards the floor of a duct; steps of 5 us. Hertz
-/// contacts have no stiffness beyond their law: how soft the carrier is decides how far it goes in.
-constexpr const char* towards_the_floor = R"toml(
-schema = 1
-name = "towards-the-floor"
-[geometry]
-generator = "duct"
-[geometry.duct]
-length = "6 mm"
-width = "2 mm"
-height = "2 mm"
-[air]
-[[air.boundary]]
-patch = "inlet"
-type = "velocity-inlet"
-flow_rate = "1 L/min"
-[[air.boundary]]
-patch = "outlet"
-type = "pressure-outlet"
-[numerics]
-dx = "0.25 mm"
-time_step = "5 us"
-[carriers]
-drag = "none"
-two_way = false
-gravity = [0.0, 0.0, 0.0]
-[carriers.contact]
-model = "hertz"
-restitution = 0.6
-friction = 0.3
-poisson = 0.3
-[stop]
-time = "3 ms"
-[output]
-carriers = "1 ms"
-)toml";
 constexpr double dt = 5e-6, radius = 35e-6;  // [s], [m]
 constexpr const char* elastic = "--no-report --set carriers.contact.restitution=1";
 
@@ -63,7 +28,8 @@ class RunHealth : public SmallDose {
   /// Ends with 5 after three retreats; the four complaints.
   std::vector<Complaint> complaints(double height, double speed, const std::string& youngs_modulus,
                                     const std::string& what, const std::string& more = "") const {
-    std::ofstream(folder_ / "case.toml") << towards_the_floor;
+    std::ofstream(folder_ / "case.toml") << test::towards_the_floor
+                                         << "[stop]\ntime = \"3 ms\"\n[output]\ncarriers = \"1 ms\"\n";
     char list[200];
     std::snprintf(list, sizeof list,
                   " --set 'carriers.list=[{position=[3e-3,1e-3,%g],velocity=[0,0,%g],spin=[0,0,0],diameter=7e-5,"

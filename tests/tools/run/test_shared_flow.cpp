@@ -1,6 +1,7 @@
 // Cases that share a flow end each for itself.
 
 #include "tests/tools/run/batch_study.hpp"
+#include "tests/tools/run/towards_the_floor.hpp"
 #include "tools/output/study_results.hpp"
 #include "tools/output/summary.hpp"
 
@@ -9,42 +10,15 @@ namespace {
 using namespace puffin;
 using namespace puffin::test;
 
-/// One carrier of 70 um, 5 um over the floor of a duct and 1 m/s towards it: nothing else acts on it.
-constexpr const char* towards_the_floor = R"toml(
-schema = 1
-name = "towards-the-floor"
-[geometry]
-generator = "duct"
-[geometry.duct]
-length = "6 mm"
-width = "2 mm"
-height = "2 mm"
-[air]
-[[air.boundary]]
-patch = "inlet"
-type = "velocity-inlet"
-flow_rate = "1 L/min"
-[[air.boundary]]
-patch = "outlet"
-type = "pressure-outlet"
-[numerics]
-dx = "0.25 mm"
-time_step = "5 us"
-[carriers]
-drag = "none"
-gravity = [0.0, 0.0, 0.0]
+/// One carrier of 70 um, 5 um over the floor and 1 m/s towards it.
+const std::string one_carrier = towards_the_floor + R"toml(
+youngs_modulus = "1 GPa"
 [[carriers.list]]
 position = [3e-3, 1e-3, 4e-5]
 velocity = [0.0, 0.0, -1.0]
 spin = [0.0, 0.0, 0.0]
 diameter = "70 um"
 density = 1520
-[carriers.contact]
-model = "hertz"
-restitution = 0.6
-friction = 0.3
-poisson = 0.3
-youngs_modulus = "1 GPa"
 [stop]
 time = "0.1 ms"
 [output]
@@ -54,7 +28,7 @@ carriers = "0.1 ms"
 // Of the two that fail the one would own the air, as it runs the longest, and the other owns it and ends on the way: a
 // carrier of 18.8 kPa goes in by more than 0.3 diameters (test_run_health.cpp).
 TEST_F(BatchStudy, OfASharedFlowAFailedCaseFailsAloneWithItsOwnCodeAndMessage) {
-  file("case.toml", towards_the_floor);
+  file("case.toml", one_carrier);
   file(
       "study.toml",
       "base = \"case.toml\"\nshare = [\"one-way-flow\"]\n[[case]]\nname = \"outside\"\nset = { "
@@ -83,7 +57,7 @@ TEST_F(BatchStudy, OfASharedFlowAFailedCaseFailsAloneWithItsOwnCodeAndMessage) {
 // Air so viscous that tau is 1.1 and the density differs: both are said at the end of a run, of the owner of the air
 // and of those that ride on it.
 TEST_F(BatchStudy, OfASharedFlowEachCaseWarnsAsAloneAndHasItsLog) {
-  file("case.toml", towards_the_floor);
+  file("case.toml", one_carrier);
   const std::string cases =
       "base = \"case.toml\"\n[sweep]\nmethod = \"list\"\n[sweep.range]\n\"stop.time\" = [\"0.2 ms\", \"0.1 ms\"]\n"
       "\"carriers.two_way\" = [false, false]\n\"air.viscosity\" = [3e-3, 3e-3]\n\"air.density\" = [1.2, 1.2]\n";
@@ -103,7 +77,7 @@ TEST_F(BatchStudy, OfASharedFlowEachCaseWarnsAsAloneAndHasItsLog) {
 
 // No file may be larger than 8 kB: stats.h5 is, the study's own files are not.
 TEST_F(BatchStudy, CasesOfASharedFlowThatCannotBeWrittenSayFailed) {
-  file("case.toml", towards_the_floor);
+  file("case.toml", one_carrier);
   file("study.toml",
        "base = \"case.toml\"\nshare = [\"one-way-flow\"]\n[[case]]\nname = \"a\"\n[[case]]\nname = \"b\"\n");
   EXPECT_EQ(shell("bash -c \"trap '' XFSZ; ulimit -f 8; " + std::string(PUFFIN_BINARY_DIR) +

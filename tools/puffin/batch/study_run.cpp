@@ -13,6 +13,7 @@
 #include "tools/puffin/batch/slurm.hpp"
 #include "tools/puffin/console.hpp"
 #include "tools/puffin/exit_codes.hpp"
+#include "tools/puffin/signals.hpp"
 
 namespace puffin::tools {
 namespace {
@@ -20,7 +21,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-volatile std::sig_atomic_t received = 0;
 constexpr int killed_by = 128;  // and the signal's number: Child::ended
 
 struct Running {
@@ -55,9 +55,9 @@ class Batch {
 
  private:
   void run_here() {
-    while (!(running_.empty() && (waiting_.empty() || received != 0))) {
-      while (received == 0 && !waiting_.empty() && static_cast<int>(running_.size()) < places_) start_next();
-      if (received != 0 && !told_) tell_to_stop();
+    while (!(running_.empty() && (waiting_.empty() || Signals::received() != 0))) {
+      while (Signals::received() == 0 && !waiting_.empty() && static_cast<int>(running_.size()) < places_) start_next();
+      if (Signals::received() != 0 && !told_) tell_to_stop();
       collect();
       live(false);
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
@@ -85,7 +85,7 @@ class Batch {
     if (!options_.quiet) log_info("Slurm job " + array.id() + ": " + std::to_string(array.open().size()) + " runs");
     for (const std::size_t n : array.open())
       for (const std::size_t m : group_of(n)) book_.record(m).state = JobState::waiting;
-    while (received == 0 && !array.open().empty()) {
+    while (Signals::received() == 0 && !array.open().empty()) {
       for (const SlurmArray::Change& change : array.poll()) {
         for (const std::size_t n : group_of(change.job)) {
           JobRecord& r = book_.record(n);
@@ -99,9 +99,10 @@ class Batch {
         book_.write();
       }
       live(false);
-      for (int n = 0; n < 20 && received == 0; ++n) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+      for (int n = 0; n < 20 && Signals::received() == 0; ++n)
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
     }
-    if (received == 0) return;
+    if (Signals::received() == 0) return;
     for (const std::size_t n : array.open())
       for (const std::size_t m : group_of(n)) book_.record(m).state = JobState::stopped;
     log_warning("Slurm job " + array.id() + " goes on; the same command watches it again, 'scancel " + array.id() +
@@ -246,8 +247,8 @@ class Batch {
       failed = failed || book_.record(n).state == JobState::failed;
       unfinished = unfinished || book_.record(n).state == JobState::stopped;
     }
-    if (received == SIGINT) return interrupted;
-    if (received == SIGTERM || (unfinished && !failed)) return stopped;
+    if (Signals::received() == SIGINT) return interrupted;
+    if (Signals::received() == SIGTERM || (unfinished && !failed)) return stopped;
     return failed || incomplete_ ? batch_failed : ok;
   }
 
@@ -268,13 +269,8 @@ class Batch {
 }  // namespace
 
 int run_jobs(const BatchOptions& options, const cases::Study& study, const Jobs& plan, Book& book) {
-  received = 0;
-  const auto previous_term = std::signal(SIGTERM, [](int n) { received = n; });
-  const auto previous_int = std::signal(SIGINT, [](int n) { received = n; });
-  const int code = Batch(options, study, plan, book).run();
-  std::signal(SIGTERM, previous_term);
-  std::signal(SIGINT, previous_int);
-  return code;
+  const Signals signals;
+  return Batch(options, study, plan, book).run();
 }
 
 }  // namespace puffin::tools
