@@ -63,6 +63,7 @@ void describe_patches(const Case& c, const Surface& surface, std::vector<lbm::Bo
           if (fastest > 0.0) {
             const Vec3 velocity = std::get<Velocity>(b->flow).value / fastest;
             lattice.profile = [velocity](const Vec3&) { return velocity; };
+            lattice.slides = true;
             drive.speed = [fastest](double) { return fastest; };
           }
           break;

@@ -21,6 +21,9 @@ bool is_opening(const Boundary& boundary) {
   return boundary.kind == BoundaryKind::velocity_inlet || boundary.kind == BoundaryKind::pressure_outlet;
 }
 
+/// Behind an opening or a slip wall there is no band; a band beyond a slip wall would rub on the air before it.
+bool ends_band(const Boundary& boundary) { return is_opening(boundary) || boundary.kind == BoundaryKind::slip; }
+
 /// The triangles of some kinds of boundary, and where each came from; null if there are none.
 template <class Wanted>
 std::unique_ptr<TriangleTree> tree_of(const LinkGeometry& surface, const Wanted& wanted) {
@@ -75,7 +78,7 @@ ActiveCells with_band(const Voxels& voxels, const LinkGeometry& surface, double 
   cells.computed = cells.inside = padded(voxels, static_cast<int>(std::ceil(depth)) + 1, periodic);
   const Voxels& v = cells.inside;
   const auto walls = tree_of(surface, [](const Boundary& b) { return b.kind == BoundaryKind::wall; });
-  const auto openings = tree_of(surface, is_opening);
+  const auto openings = tree_of(surface, ends_band);
   if (!walls) return cells;
   const double reach = depth * v.dx;
   std::vector<Vec3> shifts{Vec3::Zero()};  // a wall is near across a periodic face too

@@ -88,7 +88,11 @@ Links build_links(const Rows& rows, const LinkGeometry& surface, WallScheme sche
   // edge). A wall: the link is the wall's, as those of the cells before it. Along a moving wall it gives to one side of
   // a cell what it takes from the other, and the cell in the corner of an outlet lost u/6 a step; flow between plates,
   // driven by pressures, was 1 to 2 % too fast.
-  const auto settle_edges = [&](std::vector<Cut>& cuts) {
+  // What a link at the edge of an inlet would bring, had a wall that slides away from it not taken it, per inlet. The
+  // wall carries that air along in the links that it cuts, from one end to the other: it is no air that the inlet's
+  // other links must bring. (At the inlet's own speed there: the two agree at the edge of a flow that is possible.)
+  std::vector<double> carried(surface.boundaries.size(), 0.0);
+  const auto settle_edges = [&](const Vec3& centre, std::vector<Cut>& cuts) {
     const auto cut_along = [&](int axis, int sign) -> const Cut* {
       for (const Cut& cut : cuts)
         if (cut.direction <= 6 && d3q19::velocity[cut.direction][axis] == sign) return &cut;
@@ -112,6 +116,14 @@ Links build_links(const Rows& rows, const LinkGeometry& surface, WallScheme sche
           cut.patch = face->patch;
           if (is_wall) cut.q = face->q;
         }
+        if (moves && surface.boundaries[face->patch].slides && cut.patch == face->patch && beside != nullptr &&
+            kind_of(*beside) == BoundaryKind::velocity_inlet) {
+          const Vec3 direction(c[0], c[1], c[2]), edge = centre + 0.5 * rows.dx() * direction;
+          const Vec3 enters = surface.boundaries[beside->patch].profile(edge);
+          const Vec3 wall = surface.boundaries[face->patch].profile(edge);
+          if (enters.dot(wall) > 0.99 * enters.norm() * wall.norm())
+            carried[beside->patch] -= 6.0 * d3q19::weight[cut.direction] * direction.dot(enters);
+        }
       }
     }
   };
@@ -121,10 +133,10 @@ Links build_links(const Rows& rows, const LinkGeometry& surface, WallScheme sche
     int previous_end = -1;
     for (int n = 0; n < run.count; ++n) {
       auto& cuts = of_run[r][n];
-      settle_edges(cuts);
       if (cuts.empty()) continue;
       const std::ptrdiff_t slot = run.first + n;
       const Vec3 centre = rows.centre(slot);
+      settle_edges(centre, cuts);
       std::uint32_t walls = 0, far = 0;
       for (const Cut& cut : cuts) {
         if (cut.thin) {
@@ -219,7 +231,7 @@ Links build_links(const Rows& rows, const LinkGeometry& surface, WallScheme sche
       if (surface.patch_of_triangle[t] == static_cast<int>(b)) normal += surface.mesh->area_vector(static_cast<int>(t));
     const double patch_area = 0.5 * normal.norm() / (dx * dx);
     normal.normalize();
-    double gain = 0.0, speed = 0.0, area = 0.0;
+    double gain = carried[b], speed = 0.0, area = 0.0;
     for (const auto* list : {&links.inlets, &links.outlets})
       for (const auto& link : *list) {
         if (link.patch != static_cast<int>(b)) continue;

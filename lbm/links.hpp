@@ -45,6 +45,7 @@ struct Boundary {
   /// Velocity inlet: the flow is the mean speed times the area of the patch (true), or times the area of its cells: see
   /// build_links.
   bool exact_flow = false;
+  bool slides = false;  // moving wall: with one velocity from end to end, so that it carries air along
 };
 
 /// One link cut by an opening of the domain.

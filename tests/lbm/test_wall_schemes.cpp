@@ -29,9 +29,9 @@ AirOptions laminar(WallScheme wall, double tau = 0.8) {
 
 /// A plane channel of `height` cells along x, its grid shifted by `offset`; a body force drives it to a peak of 0.05.
 struct Channel {
-  Channel(WallScheme wall, double height, double offset, double time) : tau(time) {
-    scene = make_box(Vec3(4, height, 4), 1.0,
-                     {periodic(), periodic(), test::wall(), test::wall(), periodic(), periodic()}, Vec3(0, offset, 0));
+  Channel(WallScheme wall, double height, double offset, double time, const Boundary& side = periodic()) : tau(time) {
+    scene = make_box(Vec3(4, height, 4), 1.0, {periodic(), periodic(), test::wall(), test::wall(), side, side},
+                     Vec3(0, offset, 0));
     air = make_air(scene, laminar(wall, tau));
     nu = (tau - 0.5) / 3.0;
     force = 8.0 * nu * 0.05 / (height * height);
@@ -46,7 +46,10 @@ struct Channel {
   double displacement(double height) const {
     double flow = 0.0;
     for (const Run& run : air.rows.runs())
-      for (int n = 0; n < run.count; ++n) flow += moments_at(air, run.first + n).ux + 0.5 * force;
+      for (int n = 0; n < run.count; ++n) {
+        const double z = air.rows.centre(run.first + n)[2];
+        if (z > 0.0 && z < 4.0) flow += moments_at(air, run.first + n).ux + 0.5 * force;
+      }
     return 0.5 * (std::cbrt(12.0 * nu * flow / 16.0 / force) - height);
   }
   BoxScene scene;
@@ -270,6 +273,15 @@ TEST(PartialCells, LaminarWallsLieWhereTheyAre) {
 TEST(Markers, LaminarWallsLieWithinATenthOfACell) {
   for (const double offset : {0.0, 0.25, 0.45})
     EXPECT_NEAR(Channel(WallScheme::ibm, 9.0, offset, 0.8).displacement(9.0), 0.05, 0.15) << offset;
+}
+
+// Between slip walls the channel is as wide as between periodic faces; while the band went on behind them, it rubbed on
+// the air before them, and such a channel lost a quarter more, as one 0.3 cells narrower at each wall does. 0.03 is
+// left.
+TEST(Markers, TheirBandEndsAtSlipWalls) {
+  const Boundary slip{"", BoundaryKind::slip, {}};
+  const double between = Channel(WallScheme::ibm, 9.0, 0.0, 0.8, slip).displacement(9.0);
+  EXPECT_NEAR(between, Channel(WallScheme::ibm, 9.0, 0.0, 0.8).displacement(9.0), 0.1);
 }
 
 TEST(Markers, EqualBitsForEveryNumberOfThreads) {
