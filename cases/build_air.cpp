@@ -88,7 +88,7 @@ void set_initial_air(Simulation& s) {
         const int pairs[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}};
         for (int k = 0; k < 6; ++k)
           cell.stress[k] = -tau / 3.0 * (gradient(pairs[k][0], pairs[k][1]) + gradient(pairs[k][1], pairs[k][0]));
-        cell.density_excess = scale.density_excess_lu(start->pressure(x));
+        cell.density_excess = scale.density_excess_lu(start->pressure(x) + (start->gauge ? 0.0 : scale.base));
         return cell;
       },
       *s.state.air);

@@ -41,6 +41,18 @@ double distance_to_border(const lbm::geometry::TriangleMesh& mesh, const std::ve
   return nearest;
 }
 
+/// Is a point of their plane on one of the triangles?
+bool covers(const lbm::geometry::TriangleMesh& mesh, const std::vector<int>& triangles, const Vec3& x) {
+  return std::any_of(triangles.begin(), triangles.end(), [&](int t) {
+    const Vec3 normal = mesh.area_vector(t);
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 from = mesh.corner(t, k), along = mesh.corner(t, (k + 1) % 3) - from;
+      if (along.cross(x - from).dot(normal) < -1e-9 * normal.squaredNorm()) return false;
+    }
+    return true;
+  });
+}
+
 Floor floor_of(const Surface& surface, const std::string& patch, const Vec3& gravity) {
   const Vec3 down = gravity.norm() > 0.0 ? Vec3(gravity.normalized()) : Vec3(-Vec3::UnitZ());
   const int wanted = surface.patches.find(patch);
@@ -67,7 +79,10 @@ Floor floor_of(const Surface& surface, const std::string& patch, const Vec3& gra
   }
   floor.centre /= area;
   floor.diameter = 2.0 * std::sqrt(area / std::numbers::pi);
-  // A polygon of 16 sides counts as round: its inner circle is 0.987 of that of its area.
+  if (!covers(surface.mesh, of_floor, floor.centre))
+    throw std::invalid_argument("the middle of the patch '" + patch +
+                                "' is not on it (a ring, an angle); give a point [x, y, z] instead");
+  // A polygon of 10 sides or more counts as round: its inner circle has 0.983 of the diameter of that of its area.
   const double inner = 2.0 * distance_to_border(surface.mesh, of_floor, floor.centre);
   if (inner < 0.98 * floor.diameter) floor.diameter = inner;
   return floor;

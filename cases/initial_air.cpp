@@ -57,6 +57,7 @@ InitialAir from_table(const std::string& file) {
     std::vector<Vec3> values;
     for (const double value : p->second) values.emplace_back(value, 0.0, 0.0);
     const auto pressure = std::make_shared<const PointField>(read_point_rows(file).points, std::move(values));
+    start.gauge = true;
     start.pressure = [pressure](const Vec3& x) { return pressure->at(x)[0]; };
   }
   return start;

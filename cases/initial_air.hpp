@@ -10,7 +10,8 @@ namespace puffin::cases {
 
 struct InitialAir {
   std::function<Vec3(const Vec3&)> velocity;    // [m/s] at a point
-  std::function<double(const Vec3&)> pressure;  // [Pa], gauge
+  std::function<double(const Vec3&)> pressure;  // [Pa], gauge, or over what all outlets have in common
+  bool gauge = false;                           // the former: a file gives it
 };
 
 /// The initial field in a box [m]; empty: air at rest. U is the norm of initial_velocity, k = 2 pi over the edge,

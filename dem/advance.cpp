@@ -18,6 +18,8 @@
 namespace puffin::dem {
 namespace {
 
+constexpr std::size_t clusters_unasked = 64;  // between two questions whether to stop
+
 using Eigen::Vector3d;
 
 void refuse(double duration, const Models& models, std::span<const Load> loads, const State& state) {
@@ -115,6 +117,8 @@ void advance(double duration, const Models& models, const Walls& walls, std::spa
     Gathering& gathering = g;
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, g.used, 1), [&](const auto& range) {
       for (std::size_t c = range.begin(); c < range.end(); ++c) {
+        if (c % clusters_unasked == clusters_unasked - 1 && models.asked_to_stop && models.asked_to_stop())
+          throw Interrupted();
         fill(c, state.time, rules, loads, state, gathering);
         integrate(state.time, duration, rules, walls, gathering.clusters[c]);
       }

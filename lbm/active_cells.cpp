@@ -21,9 +21,6 @@ bool is_opening(const Boundary& boundary) {
   return boundary.kind == BoundaryKind::velocity_inlet || boundary.kind == BoundaryKind::pressure_outlet;
 }
 
-/// Behind an opening or a slip wall there is no band; a band beyond a slip wall would rub on the air before it.
-bool ends_band(const Boundary& boundary) { return is_opening(boundary) || boundary.kind == BoundaryKind::slip; }
-
 /// The triangles of some kinds of boundary, and where each came from; null if there are none.
 template <class Wanted>
 std::unique_ptr<TriangleTree> tree_of(const LinkGeometry& surface, const Wanted& wanted) {
@@ -78,7 +75,8 @@ ActiveCells with_band(const Voxels& voxels, const LinkGeometry& surface, double 
   cells.computed = cells.inside = padded(voxels, static_cast<int>(std::ceil(depth)) + 1, periodic);
   const Voxels& v = cells.inside;
   const auto walls = tree_of(surface, [](const Boundary& b) { return b.kind == BoundaryKind::wall; });
-  const auto openings = tree_of(surface, ends_band);
+  const auto openings = tree_of(surface, is_opening);
+  const auto slips = tree_of(surface, [](const Boundary& b) { return b.kind == BoundaryKind::slip; });
   if (!walls) return cells;
   const double reach = depth * v.dx;
   std::vector<Vec3> shifts{Vec3::Zero()};  // a wall is near across a periodic face too
@@ -104,7 +102,12 @@ ActiveCells with_band(const Voxels& voxels, const LinkGeometry& surface, double 
         const Vec3 x = v.centre(i, j, k);
         if (beyond(openings.get(), x, 2.0 * reach)) continue;
         for (const Vec3& shift : shifts) {
-          if (walls->closest(x + shift, reach).triangle < 0) continue;
+          const auto near = walls->closest(x + shift, reach);
+          if (near.triangle < 0) continue;
+          // Beyond a slip wall a band would rub on the air before it; what lies straight behind another wall is that
+          // one's.
+          const bool at_edge = slips && slips->closest(near.point, 1e-6 * v.dx).triangle >= 0;
+          if (at_edge && beyond(slips.get(), x + shift, 2.0 * reach)) continue;
           computed[i] = 1;
           break;
         }

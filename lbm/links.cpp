@@ -88,11 +88,17 @@ Links build_links(const Rows& rows, const LinkGeometry& surface, WallScheme sche
   // edge). A wall: the link is the wall's, as those of the cells before it. Along a moving wall it gives to one side of
   // a cell what it takes from the other, and the cell in the corner of an outlet lost u/6 a step; flow between plates,
   // driven by pressures, was 1 to 2 % too fast.
-  // What a link at the edge of an inlet would bring, had a wall that slides away from it not taken it, per inlet. The
-  // wall carries that air along in the links that it cuts, from one end to the other: it is no air that the inlet's
-  // other links must bring. (At the inlet's own speed there: the two agree at the edge of a flow that is possible.)
-  std::vector<double> carried(surface.boundaries.size(), 0.0);
-  const auto settle_edges = [&](const Vec3& centre, std::vector<Cut>& cuts) {
+  // Such a link at the edge of an inlet, taken by a wall that slides: the wall carries air along in the links that it
+  // cuts, from one end to the other, and the inlet's other links must bring so much less. Both for a unit speed of
+  // their own, the wall's and the inlet's: what the link would have brought goes to the inlet's face of the cell, less
+  // what the wall carries.
+  struct Edge {
+    std::ptrdiff_t slot = 0;
+    std::int16_t face = 0, wall = 0, inlet = 0;
+    double own = 0.0, carried = 0.0;
+  };
+  std::vector<Edge> edges;
+  const auto settle_edges = [&](std::ptrdiff_t slot, std::vector<Cut>& cuts) {
     const auto cut_along = [&](int axis, int sign) -> const Cut* {
       for (const Cut& cut : cuts)
         if (cut.direction <= 6 && d3q19::velocity[cut.direction][axis] == sign) return &cut;
@@ -118,11 +124,12 @@ Links build_links(const Rows& rows, const LinkGeometry& surface, WallScheme sche
         }
         if (moves && surface.boundaries[face->patch].slides && cut.patch == face->patch && beside != nullptr &&
             kind_of(*beside) == BoundaryKind::velocity_inlet) {
-          const Vec3 direction(c[0], c[1], c[2]), edge = centre + 0.5 * rows.dx() * direction;
-          const Vec3 enters = surface.boundaries[beside->patch].profile(edge);
-          const Vec3 wall = surface.boundaries[face->patch].profile(edge);
-          if (enters.dot(wall) > 0.99 * enters.norm() * wall.norm())
-            carried[beside->patch] -= 6.0 * d3q19::weight[cut.direction] * direction.dot(enters);
+          const Vec3 direction(c[0], c[1], c[2]), at = rows.centre(slot) + 0.5 * rows.dx() * direction;
+          const auto brings = [&](int patch) {
+            return -6.0 * d3q19::weight[cut.direction] * direction.dot(surface.boundaries[patch].profile(at));
+          };
+          edges.push_back(
+              {slot, beside->direction, face->patch, beside->patch, brings(beside->patch), brings(face->patch)});
         }
       }
     }
@@ -136,7 +143,7 @@ Links build_links(const Rows& rows, const LinkGeometry& surface, WallScheme sche
       if (cuts.empty()) continue;
       const std::ptrdiff_t slot = run.first + n;
       const Vec3 centre = rows.centre(slot);
-      settle_edges(centre, cuts);
+      settle_edges(slot, cuts);
       std::uint32_t walls = 0, far = 0;
       for (const Cut& cut : cuts) {
         if (cut.thin) {
@@ -231,7 +238,9 @@ Links build_links(const Rows& rows, const LinkGeometry& surface, WallScheme sche
       if (surface.patch_of_triangle[t] == static_cast<int>(b)) normal += surface.mesh->area_vector(static_cast<int>(t));
     const double patch_area = 0.5 * normal.norm() / (dx * dx);
     normal.normalize();
-    double gain = carried[b], speed = 0.0, area = 0.0;
+    double gain = 0.0, speed = 0.0, area = 0.0;
+    for (const Edge& edge : edges)
+      if (edge.inlet == static_cast<int>(b)) gain += edge.own;
     for (const auto* list : {&links.inlets, &links.outlets})
       for (const auto& link : *list) {
         if (link.patch != static_cast<int>(b)) continue;
@@ -250,8 +259,20 @@ Links build_links(const Rows& rows, const LinkGeometry& surface, WallScheme sche
     if (!(gain > 0.0) || !(speed > 0.0))
       throw std::runtime_error("the profile of the inlet '" + boundary.patch + "' does not point into the fluid");
     // The mean of the profile over the cells is brought to 1, then the links to the flow of all cells at that mean.
+    const double scale = (boundary.exact_flow ? patch_area : area) / gain;
     for (auto& link : links.inlets)
-      if (link.patch == static_cast<int>(b)) link.gain *= (boundary.exact_flow ? patch_area : area) / gain;
+      if (link.patch == static_cast<int>(b)) link.gain *= scale;
+    for (const Edge& edge : edges) {
+      if (edge.inlet != static_cast<int>(b)) continue;
+      for (auto at = std::lower_bound(links.inlets.begin(), links.inlets.end(), edge.slot,
+                                      [](const OpeningLink&link, std::ptrdiff_t slot) { return link.slot < slot; });
+           at != links.inlets.end() && at->slot == edge.slot; ++at) {
+        if (at->direction != edge.face) continue;
+        at->gain += scale * edge.own;
+        at->wall_gain -= edge.carried;
+        at->wall = edge.wall;  // all walls that slide have one speed on the lattice
+      }
+    }
   }
 
   join_slip_links(rows, links.slip);

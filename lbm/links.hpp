@@ -54,7 +54,9 @@ struct OpeningLink {
   std::int32_t run = 0;
   std::int16_t direction = 0;
   std::int16_t patch = 0;
-  double gain = 0.0;  // velocity inlet: population gained for a unit mean speed: -6 w c.profile
+  double gain = 0.0;       // velocity inlet: population gained for a unit mean speed: -6 w c.profile
+  double wall_gain = 0.0;  // for a unit speed of the sliding wall at the edge: less what that carries along
+  std::int16_t wall = -1;  // the patch of that wall
 };
 
 /// One link cut by a slip wall: what comes back along it is what left `source` in `source_direction`.

@@ -55,7 +55,8 @@ void apply_inlets(const Air& air, const Drive& drive, Parity last, std::size_t f
   for (std::size_t k = first; k < end; ++k) {
     const OpeningLink& link = air.links.inlets[k];
     const Run& run = air.rows.runs()[link.run];
-    const double more = drive.inlet_fluctuation.empty() ? 0.0 : drive.inlet_fluctuation[k];
+    double more = drive.inlet_fluctuation.empty() ? 0.0 : drive.inlet_fluctuation[k];
+    if (link.wall >= 0) more += link.wall_gain * drive.speed[link.wall];
     returning(run, link, last, p) =
         p.departed(run, link.slot, link.direction, last) + static_cast<T>(link.gain * drive.speed[link.patch] + more);
   }

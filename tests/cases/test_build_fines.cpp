@@ -140,6 +140,10 @@ TEST(FrozenAir, TurningAsASolidBalancesInEveryInnerCell) {
         ++inner;
       }
   EXPECT_EQ(inner, 120);
+  // Where such a field crosses the closed sides, it is said of each; floor and roof it only slides along.
+  int told = 0;
+  for (const std::string& text : s->warnings) told += text.find("air.field blows through the patch '") == 0;
+  EXPECT_EQ(told, 4);
   // Face between cells 5 and 6 at x = 0.6 mm, y = 0.35 mm: u = -omega (y - 0.2 mm) = -0.15 m/s.
   EXPECT_NEAR(mass[0][rows.slot(5, 3, 2)], -0.15 * s->state.scale.dt / 1e-4, 1e-12);
 }

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <limits>
 
+#include "cases/build.hpp"
 #include "cases/fill.hpp"
 #include "cases/size_distribution.hpp"
 #include "cases/write_case.hpp"
@@ -149,6 +150,27 @@ TEST(CarrierKeys, ADoseOnASquareFloorStandsWithinItsSides) {
   double reach = 0.0;
   for (const Vec3& p : dose.positions) reach = std::max(reach, std::hypot(p.x() - 0.5e-3, p.y() - 0.5e-3));
   EXPECT_GT(reach, 0.3e-3);  // and uses it
+}
+
+// The large one may give by 2 % of 2 mm, ten times the radius of the small one; frozen air has no volume fraction.
+TEST(CarrierKeys, WhatTheModelsLeaveOutIsSaidWhenTheSceneIsBuilt) {
+  const auto warnings = [](const std::string& diameter, const std::string& drag) {
+    return build(
+               parse("schema = 1\nname = \"two\"\n[geometry]\ngenerator = \"box\"\n[geometry.box]\nx = \"4 mm\"\ny = "
+                     "\"4 mm\"\nz = \"4 mm\"\n[air]\nmodel = \"frozen\"\nfield = \"uniform\"\nvelocity = [1.0, 0.0, "
+                     "0.0]\n"
+                     "[carriers]\ndrag = \"" +
+                     drag +
+                     "\"\nlist = [{ position = [2e-3, 2e-3, 2e-3], diameter = \"2 mm\", density = 1520 }, { position = "
+                     "[5e-4, 5e-4, 5e-4], diameter = \"" +
+                     diameter + "\", density = 1520 }]\n[stop]\ntime = \"1 ms\"\n"))
+        ->warnings;
+  };
+  const auto said = warnings("8 um", "beetstra");
+  ASSERT_EQ(said.size(), 2U);
+  EXPECT_NE(said[0].find("carriers.volume_fraction: in frozen air"), std::string::npos) << said[0];
+  EXPECT_NE(said[1].find("give at most 0.002"), std::string::npos) << said[1];
+  EXPECT_TRUE(warnings("100 um", "schiller-naumann").empty());
 }
 
 }  // namespace puffin::cases

@@ -141,7 +141,7 @@ int main(int count, char** arguments) {
   if (channel) options.smagorinsky = 0.0;
   if (!channel) options.sponge_length = 20.0;
   Air air =
-      make_air(geometry::voxelize(geometry::TriangleTree(mesh), 1.0, {{false, false, true}, {}}), surface, options);
+      make_air(geometry::voxelize(geometry::TriangleTree(mesh), 1.0, {{false, false, true}, {}, {}}), surface, options);
 
   const double tau = channel ? number("tau", 0.6) : 0.5 + 3.0 * number("nu", 1e-4), nu = (tau - 0.5) / 3.0;
   const double speed = channel ? 0.02 : 0.15 * height / wide;

@@ -13,4 +13,7 @@ namespace puffin::tools {
 /// stands there. Slower ones are not told: every contact that ends at rest has some.
 void warn_beyond_laws(const cases::Simulation& s, std::vector<std::string>& warnings);
 
+/// After a retreat to `time` [s]: takes the warnings of later impacts out, which have not happened.
+void forget_beyond_laws(double time, std::vector<std::string>& warnings);
+
 }  // namespace puffin::tools

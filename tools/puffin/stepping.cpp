@@ -138,6 +138,7 @@ bool Stepping::retreat(const std::string& why) {
   if (memory_.retreats >= most_retreats) return false;
   const double failed_at = s_.state.time;
   coupling::restore(good_, s_.state);
+  forget_beyond_laws(s_.state.time, memory_.warnings);
   ++memory_.retreats;
   s_.state.step_factor = std::pow(0.5, memory_.retreats);
   char text[160];
@@ -151,14 +152,17 @@ bool Stepping::retreat(const std::string& why) {
   return true;
 }
 
-/// If the last step took so long that the next may be given up, what comes before that is remembered.
+/// If the carriers took so long in the last step that the next may be given up, what comes before that is remembered.
 void Stepping::get_ready() {
-  const double now = wall_clock();
-  if (now - step_began_ > patience)
+  const double spent = s_.state.effort.carriers;
+  if (spent - spent_before_ > patience) {
+    health_.check(s_.models, s_.state);
     remember(before_slow_);
-  else if (!before_slow_.sections.empty())
+  } else if (!before_slow_.sections.empty()) {
     before_slow_ = {};
-  step_began_ = now;
+  }
+  spent_before_ = spent;
+  step_began_ = wall_clock();
 }
 
 Ending Stepping::run() {

@@ -74,6 +74,7 @@ class Stepping {
   coupling::Checkpoint good_;         // the last good state
   coupling::Checkpoint before_slow_;  // before the present step, if the one before it took long
   double step_began_ = 0.0;           // [s] of wall_clock()
+  double spent_before_ = 0.0;         // [s] of the carriers, before the present step
   std::int64_t checked_ = 0, remembered_ = 0;
   double output_seconds_ = 0.0;
 };

@@ -91,6 +91,7 @@ TEST(SignedDistance, OfManyPointsAtOnceIsThatOfEachToTheLastBit) {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> unit(-2.0, 2.0);
   std::vector<Vec3> points;
+  points.reserve(6000);
   for (int n = 0; n < 6000; ++n) points.emplace_back(unit(random), unit(random), unit(random));
   for (const double limit : {std::numeric_limits<double>::infinity(), 0.3}) {
     const std::vector<double> all = distance.at(points, limit);

@@ -126,5 +126,44 @@ TEST_F(AirScene, AnInletMayBeTurbulentAndKeepsItsFlow) {
             last(table("rough/probes.csv"), "probe", "wall", "u"));
 }
 
+// Two hit the floor, at 2 and 10 m/s, under a law for at most 3 m/s: the second is told, once.
+TEST_F(AirScene, AnImpactFasterThanItsLawWasMadeForIsTold) {
+  std::ofstream(folder_ / "law.toml") << "label = \"given\"\nsource = \"test\"\n[wall_detach]\nlaw = \"power\"\nA = "
+                                         "[0.02, 1.5, 2.0, 0.03, 0.8]\nvalid = "
+                                         "[0.0, 3.0]\n";
+  const std::string scene = R"toml(
+schema = 1
+name = "fast"
+[geometry]
+generator = "box"
+[geometry.box]
+x = "2 mm"
+y = "2 mm"
+z = "2 mm"
+[air]
+model = "none"
+[carriers]
+fines_each = 2000
+gravity = [0.0, 0.0, 0.0]
+diameter = "70 um"
+density = 1520
+list = [
+  { position = [5e-4, 1e-3, 1e-3], velocity = [0, 0, -2] },
+  { position = [15e-4, 1e-3, 1e-3], velocity = [0, 0, -10] },
+]
+[fines]
+micromodels = "law.toml"
+[[fines.scalar]]
+name = "fines"
+[stop]
+time = "1 ms"
+)toml";
+  ASSERT_EQ(run("fast", scene, "--no-report"), 0) << text("fast.log");
+  const auto warnings = output::read_summary(folder_ / "fast/summary.json").warnings;
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings[0].find("an impact on a wall, at 10 m/s (t = 9.65e-05 s)"), std::string::npos) << warnings[0];
+  EXPECT_NE(warnings[0].find("made for, 3 m/s"), std::string::npos) << warnings[0];
+}
+
 }  // namespace
 }  // namespace puffin::test
