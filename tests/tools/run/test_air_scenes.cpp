@@ -63,7 +63,7 @@ TEST_F(AirScene, APressureThatAllOutletsHaveIsAddedToWhatIsRead) {
   const std::string floor = "[[geometry.patch]]\nname = \"floor\"\nselect = \"plane:z-min\"\n";
   std::string lifted = channel;
   lifted.replace(lifted.find("type = \"pressure-outlet\""), 24, "type = \"pressure-outlet\"\npressure = \"100 Pa\"");
-  const std::string more = "--until 4ms --set 'air.initial_velocity=[0.1,0.0,0.0]' --set 'output.force=[\"floor\"]'";
+  const std::string more = "--until 1ms --set 'air.initial_velocity=[0.1,0.0,0.0]' --set 'output.force=[\"floor\"]'";
   ASSERT_EQ(run("plain", channel + floor, more), 0) << text("plain.log");
   ASSERT_EQ(run("lifted", lifted + floor, more), 0) << text("lifted.log");
   const auto value = [&](const char* name, const char* of, const char* column) {
