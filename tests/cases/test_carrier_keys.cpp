@@ -11,6 +11,7 @@
 #include "cases/fill.hpp"
 #include "cases/size_distribution.hpp"
 #include "cases/write_case.hpp"
+#include "coupling/near_wall.hpp"
 #include "tests/cases/sample_case.hpp"
 
 namespace puffin::cases {
@@ -171,6 +172,28 @@ TEST(CarrierKeys, WhatTheModelsLeaveOutIsSaidWhenTheSceneIsBuilt) {
   EXPECT_NE(said[0].find("carriers.volume_fraction: in frozen air"), std::string::npos) << said[0];
   EXPECT_NE(said[1].find("give at most 0.002"), std::string::npos) << said[1];
   EXPECT_TRUE(warnings("100 um", "schiller-naumann").empty());
+}
+
+// Carriers of 10 um at rest in a stream along the floor: their drag over that of one far away. Faxen's in full to 10
+// radii, two fifths of what it adds at 13, nothing from 15 on. Rounding of what comes after six digits of the diameter.
+TEST(CarrierKeys, WhatAWallAddsToDragFadesBetween10And15Radii) {
+  const std::vector<double> distances{4.0, 9.9, 13.0, 15.1, 100.0};  // radii
+  std::string list;
+  for (const double d : distances)
+    list +=
+        "{ position = [1e-3, 1e-3, \"" + std::to_string(5.0 * d) + " um\"], diameter = \"10 um\", density = 1520 },";
+  const auto s =
+      build(parse("schema = 1\nname = \"wall\"\n[geometry]\ngenerator = \"box\"\n[geometry.box]\nx = \"2 mm\"\ny = "
+                  "\"2 mm\"\nz = \"2 mm\"\n[air]\nmodel = \"frozen\"\nfield = \"uniform\"\nvelocity = [0.01, 0.0, "
+                  "0.0]\n[carriers]\nnear_wall = true\ngravity = [0.0, 0.0, 0.0]\nlist = [" +
+                  list + "]\n[stop]\ntime = \"1 ms\"\n"));
+  coupling::advance(s->models, 1e-9, s->state);
+  const double far = s->state.loads.back().drag;
+  const auto along = [](double distance) { return coupling::drag_along_wall(1.0 / distance); };
+  for (std::size_t n = 0; n < distances.size(); ++n) {
+    const double felt = distances[n] < 10.0 ? 1.0 : distances[n] < 15.0 ? 0.4 : 0.0;
+    EXPECT_NEAR(s->state.loads[n].drag / far, 1.0 + felt * (along(distances[n]) - 1.0), 2e-3) << distances[n];
+  }
 }
 
 }  // namespace puffin::cases

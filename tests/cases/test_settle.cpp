@@ -48,20 +48,12 @@ dem::Models under_gravity(double g) {
 // Forty carriers dropped on a floor: all at rest on it or on each other, none below it; loosened to half its density it
 // has that within 0.2 %, on the same floor.
 TEST(Settle, ABedComesToRestAndIsLoosenedToTheDensityAskedFor) {
-  dem::Models models;
-  models.gravity = {0, 0, -9.81};
-  std::get<dem::LinearContact>(models.carrier.contact).friction = dem::ConstantFriction{0.5};
-  models.carrier.adhesion = dem::Hamaker{3.6e-3};
-  models.wall = models.carrier;
+  dem::Models models = under_gravity(9.81);
   std::vector<dem::Carrier> carriers;
   for (int n = 0; n < 40; ++n) {
-    dem::Carrier c;
-    c.id = n;
-    c.radius = 75e-6;
-    c.mass = 1520.0 * 4.0 / 3.0 * M_PI * std::pow(c.radius, 3);
     const int column = n % 3, row = n / 3 % 3, layer = n / 9;
-    c.position = {180e-6 * column + 7e-6 * (n % 5), 180e-6 * row - 5e-6 * (n % 7), 180e-6 * layer + 90e-6};
-    carriers.push_back(c);
+    carriers.push_back(
+        sphere(n, 75e-6, {180e-6 * column + 7e-6 * (n % 5), 180e-6 * row - 5e-6 * (n % 7), 180e-6 * layer + 90e-6}));
   }
   const SettledBed bed = settle(models, Floor(), carriers);
   EXPECT_TRUE(bed.at_rest);

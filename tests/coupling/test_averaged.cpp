@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <memory>
 #include <string>
 
 #include "cases/build.hpp"
@@ -97,6 +99,17 @@ Sums sums(const coupling::State& s) {
   return all;
 }
 
+/// A cloud after 0.2 ms, and another that was brought there by the first one's checkpoint.
+std::array<std::unique_ptr<Simulation>, 2> twins() {
+  const Case description = parse_case(cloud("averaged", 3, 0.1), "cloud.toml");
+  std::array<std::unique_ptr<Simulation>, 2> both{build(description), build(description)};
+  while (both[0]->state.time < 0.2e-3) coupling::advance(both[0]->models, 3e-3, both[0]->state);
+  coupling::Checkpoint checkpoint;
+  coupling::save(both[0]->state, checkpoint);
+  coupling::restore(checkpoint, both[1]->state);
+  return both;
+}
+
 }  // namespace
 
 // Solid fraction 0.3 in the middle of the box. The air's mass is kept to rounding once the box is filled: 7,680 cells
@@ -132,12 +145,7 @@ TEST(Averaged, APackedBedStaysStable) {
 // What carriers are told of the air is the mean of an interval's last two steps; of one step, that step. The same air
 // goes on in four single steps and in one interval of four: its bits are the same, so is the mean in float.
 TEST(Averaged, CarriersFeelTheMeanOfTheLastTwoSteps) {
-  const Case description = parse_case(cloud("averaged", 3, 0.1), "cloud.toml");
-  const auto a = build(description), b = build(description);
-  while (a->state.time < 0.2e-3) coupling::advance(a->models, 3e-3, a->state);
-  coupling::Checkpoint checkpoint;
-  coupling::save(a->state, checkpoint);
-  coupling::restore(checkpoint, b->state);
+  const auto [a, b] = twins();
   coupling::advance(a->models, 3e-3, a->state);  // makes what a checkpoint leaves out
   coupling::advance(b->models, 3e-3, b->state);
   ASSERT_FALSE(a->state.pores.cells.empty());
@@ -159,12 +167,7 @@ TEST(Averaged, CarriersFeelTheMeanOfTheLastTwoSteps) {
 
 // A checkpoint holds what alpha remembers: the rest of the run has the same bits.
 TEST(Averaged, GoesOnBitForBitFromACheckpoint) {
-  const Case description = parse_case(cloud("averaged", 3, 0.1), "cloud.toml");
-  const auto a = build(description), b = build(description);
-  while (a->state.time < 0.2e-3) coupling::advance(a->models, 3e-3, a->state);
-  coupling::Checkpoint checkpoint;
-  coupling::save(a->state, checkpoint);
-  coupling::restore(checkpoint, b->state);
+  const auto [a, b] = twins();
   for (int n = 0; n < 20; ++n) {
     coupling::advance(a->models, 3e-3, a->state);
     coupling::advance(b->models, 3e-3, b->state);

@@ -188,6 +188,7 @@ Ending Stepping::run() {
     } catch (const dem::Interrupted&) {  // within a step that takes long: what goes on begins before it
       if (!before_slow_.sections.empty()) good_ = before_slow_;
       coupling::restore(good_, s_.state);
+      forget_beyond_laws(s_.state.time, memory_.warnings);
       reopen_outputs();
       return stop();
     } catch (const coupling::Diverged& e) {
