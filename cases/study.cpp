@@ -74,6 +74,14 @@ std::optional<double> number_of(const toml::node& node) {
   return std::nullopt;
 }
 
+/// The keys that a case takes whole numbers for (`integer` in cases/format); on any other one [0, 1] are but two ends.
+bool takes_whole_numbers(const std::string& key) {
+  constexpr std::array<std::string_view, 8> names{"count",   "parcel", "cells",  "coupling_interval",
+                                                  "threads", "seed",   "points", "keep"};
+  const std::string_view last = std::string_view(key).substr(key.rfind('.') + 1);
+  return std::find(names.begin(), names.end(), last) != names.end();
+}
+
 SweepRange range_of(const Change& change, Findings& findings) {
   SweepRange r;
   r.key = change.key;
@@ -82,7 +90,7 @@ SweepRange range_of(const Change& change, Findings& findings) {
     findings.problem(r.key, place_of(*change.value, findings), r.key + ": must be a list of values, like [0.1, 0.6]");
     return r;
   }
-  r.whole = true;
+  r.whole = takes_whole_numbers(r.key);
   for (const toml::node& element : *list) {
     r.texts.push_back(text_of(element));
     if (const auto number = number_of(element)) r.numbers.push_back(*number);

@@ -14,7 +14,7 @@ struct SweepRange {
   std::string key;
   std::vector<std::string> texts;
   std::vector<double> numbers;  // as many as texts, or none
-  bool whole = false;           // all are whole numbers: points in between are rounded to such
+  bool whole = false;           // the key takes whole numbers: points in between are rounded to such
 };
 
 /// Values by point, one TOML text a range. samples: 0 if not given.

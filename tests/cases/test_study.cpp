@@ -126,6 +126,18 @@ TEST(Sweep, WholeNumbersStayWholeAndLevelsAreEvenlySpread) {
   EXPECT_EQ(ends, (std::vector<std::vector<std::string>>{{"0.3"}, {"0.9"}}));
 }
 
+// [0, 1] of a coefficient are two ends, of a number of carriers whole numbers.
+TEST_F(StudyFile, WholeEndsOfARealQuantityHavePointsInBetween) {
+  const Study s = study(
+      "base = \"case.toml\"\n[sweep]\nmethod = \"factorial\"\nsamples = 3\n[sweep.range]\n"
+      "\"carriers.contact.friction\" = [0, 1]\n\"carriers.count\" = [100, 201]\n");
+  std::set<std::string> frictions, counts;
+  for (const StudyCase& c : s.cases)
+    for (const Override& o : c.sets) (o.key == "carriers.count" ? counts : frictions).insert(o.value);
+  EXPECT_EQ(frictions, (std::set<std::string>{"0", "0.5", "1"}));
+  EXPECT_EQ(counts, (std::set<std::string>{"100", "151", "201"}));  // 150.5 rounded
+}
+
 TEST_F(StudyFile, MistakesAreFoundAtTheirPlace) {
   EXPECT_NE(problems("base = \"case.toml\"\nreplicate = 2\n")
                 .find("study.toml:2:1: error: unknown key 'replicate'; did "

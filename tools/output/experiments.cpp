@@ -17,7 +17,10 @@ std::vector<Measurement> read_experiments(const std::filesystem::path& file) {
   std::vector<Measurement> all;
   for (std::size_t r = 0; r < table.rows.size(); ++r) {
     const auto& row = table.rows[r];
-    const auto text = [&](int column) { return column < 0 ? std::string() : row[static_cast<std::size_t>(column)]; };
+    const auto text = [&](int column) {  // a short row leaves its last columns empty
+      const auto at = static_cast<std::size_t>(column);
+      return column < 0 || at >= row.size() ? std::string() : row[at];
+    };
     for (int c = 0; c < static_cast<int>(table.columns.size()); ++c) {
       if (c == device || c == copy || c == test || text(c).empty()) continue;
       const double value = table.numbers(table.columns[static_cast<std::size_t>(c)])[r];

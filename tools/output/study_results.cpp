@@ -58,7 +58,8 @@ std::string text(const Json& json, const char* key) {
 }
 
 /// The summary as the case alone would have written it. `replay`: a file with its own fines, which displace those of
-/// the run; the retained dose changes by their mass.
+/// the run. RDF is that of the run's first scalar: for another one, and for a replay, it changes by the mass of the
+/// fines.
 std::optional<Summary> summary_of(const fs::path& run, const std::string& scalar, const std::string& replay,
                                   double fines_of_dose) {
   if (!fs::exists(run / "summary.json") || (!replay.empty() && !fs::exists(run / replay))) return {};
@@ -66,12 +67,16 @@ std::optional<Summary> summary_of(const fs::path& run, const std::string& scalar
   const auto keep_own = [&](std::vector<FinesSummary>& fines) {
     if (!scalar.empty()) std::erase_if(fines, [&](const FinesSummary& f) { return f.name != scalar; });
   };
+  const auto left_inside = [](const FinesSummary& f) { return f.FFW + f.FFCR; };
+  const double of_first = s.fines.empty() ? 0.0 : left_inside(s.fines[0]);
   keep_own(s.fines);
+  if (s.carriers && s.carriers->RDF && !s.fines.empty())
+    *s.carriers->RDF += fines_of_dose * (left_inside(s.fines[0]) - of_first);
   if (replay.empty()) return s;
   std::vector<FinesSummary> fines = read_fines(run / replay);
   keep_own(fines);
   if (s.carriers && s.carriers->RDF && !s.fines.empty() && !fines.empty())
-    *s.carriers->RDF += fines_of_dose * (fines[0].FFW + fines[0].FFCR - s.fines[0].FFW - s.fines[0].FFCR);
+    *s.carriers->RDF += fines_of_dose * (left_inside(fines[0]) - left_inside(s.fines[0]));
   s.fines = fines;
   return s;
 }

@@ -37,11 +37,13 @@ int batch(const BatchOptions& options) {
   const int code = run_jobs(options, study, plan, book);
   const output::StudyResults results = output::read_study_results(book.folder());
   output::write_study_tables(results, book.folder());
-  output::write_whole(book.folder() / "report.html", output::make_study_report(book.folder()));
-  if (options.json)
-    print(output::study_results_json(results, code));
-  else
-    print((book.folder() / "report.html").string());
+  try {
+    output::write_whole(book.folder() / "report.html", output::make_study_report(book.folder()));
+    if (!options.json) print((book.folder() / "report.html").string());
+  } catch (const std::exception& e) {  // a page that fails takes no results with it
+    log_warning(std::string("no report: ") + e.what());
+  }
+  if (options.json) print(output::study_results_json(results, code));
   return code;
 }
 

@@ -2,6 +2,7 @@
 
 #include <fstream>
 #include <sstream>
+#include <string_view>
 
 #include "cases/write_case.hpp"
 #include "coupling/checkpoint/checkpoint.hpp"
@@ -14,6 +15,9 @@
 namespace puffin::tools {
 
 namespace {
+
+constexpr std::string_view cannot_be_used = " cannot be used: ",
+                           none_is_sound = " is sound; begin anew with another --out";
 
 template <class T>
 std::uint64_t hash_of(const T& values, std::uint64_t seed = 0) {
@@ -98,12 +102,16 @@ void CheckpointStore::restore_newest(std::size_t longest, const std::function<vo
       return;
     } catch (const coupling::CheckpointDamaged& e) {
       log_warning(file.string() + " is damaged: " + e.what() + "; trying the one before it");
-      damages += "\n  " + file.string() + ": " + e.what();
+      damages += "; " + file.string() + ": " + e.what();
     } catch (const coupling::CheckpointForeign& e) {
-      throw coupling::CheckpointForeign(file.string() + " cannot be used: " + e.what());
+      throw coupling::CheckpointForeign(file.string() + std::string(cannot_be_used) + e.what());
     }
-  throw output::OutputError("no checkpoint of " + folder_.path().string() +
-                            " is sound; begin anew with another --out:" + damages);
+  throw output::OutputError("no checkpoint of " + folder_.path().string() + std::string(none_is_sound) + damages);
+}
+
+bool cannot_go_on(std::string_view message) {
+  return message.find(cannot_be_used) != std::string_view::npos ||
+         message.find(none_is_sound) != std::string_view::npos;
 }
 
 }  // namespace puffin::tools

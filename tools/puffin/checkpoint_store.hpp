@@ -4,6 +4,7 @@
 #include <chrono>
 #include <functional>
 #include <string>
+#include <string_view>
 
 #include "cases/build.hpp"
 #include "coupling/checkpoint/file.hpp"
@@ -35,6 +36,9 @@ class CheckpointStore {
   std::int64_t next_number_ = 1;
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
+
+/// Whether this is what restore_newest has thrown, which no later try of the same kind can mend.
+bool cannot_go_on(std::string_view message);
 
 /// One line for each value that the course of the simulation depends on: the resolved case without what may change
 /// between two parts of a run (threads, stop time, checkpoints, reference values), version, surface, lattice.

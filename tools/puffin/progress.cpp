@@ -38,8 +38,7 @@ void Progress::update(const Recorder& recorder, const std::vector<std::string>& 
     status.steps = state.air->steps;
     const double busy = state.effort.air + state.effort.links;
     if (busy > 0.0)
-      status.mlups =
-          1e-6 * static_cast<double>(state.air->rows.active_cells()) * static_cast<double>(status.steps) / busy;
+      status.mlups = 1e-6 * static_cast<double>(state.air->fluid_cells) * static_cast<double>(status.steps) / busy;
   }
   // Air steps, not simulated time, are what costs: in a ramp the end is dearer than the beginning.
   const double done = work(state.time), all = work(end_);

@@ -10,8 +10,11 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <memory>
+#include <stdexcept>
 
 #include "cases/build.hpp"
+#include "cases/case_error.hpp"
 #include "coupling/air_steps.hpp"
 #include "tools/output/output_folder.hpp"
 #include "tools/puffin/exit_codes.hpp"
@@ -81,6 +84,13 @@ double steps_before(const cases::Simulation& s, double part, double end) {
   return before / all;
 }
 
+/// As a run builds it; what does not fit together is a mistake of the case.
+std::unique_ptr<cases::Simulation> built(const cases::Case& c) try {
+  return cases::build(c, read_stored_field);
+} catch (const std::invalid_argument& e) {
+  throw cases::CaseError({{c.name, 0, 0, "", e.what()}});
+}
+
 }  // namespace
 
 Rehearsal rehearse(const cases::Case& c, double seconds) {
@@ -91,7 +101,7 @@ Rehearsal rehearse(const cases::Case& c, double seconds) {
                                           static_cast<std::size_t>(r.threads));
   _mm_setcsr(_mm_getcsr() | 0x8040);  // flush denormals, as a run does
   const Clock::time_point begin = Clock::now();
-  const auto simulation = cases::build(c, read_stored_field);
+  const auto simulation = built(c);
   cases::Simulation& s = *simulation;
   fill_air_with_fines(s.state);
   const ScratchFolder scratch;

@@ -51,7 +51,7 @@ void check_options(const RenderArguments& given) {
   only_of(!given.quantity.empty(), "--quantity", {"slice", "wall-map"});
   only_of(!given.maximum.empty(), "--max", {"slice", "carriers", "streamlines"});
   only_of(!given.plane.empty(), "--plane", {"slice"});
-  only_of(!given.at.empty(), "--at", {"carriers", "slice", "streamlines", "wall-map"});
+  only_of(!given.at.empty(), "--at", {"carriers", "slice", "streamlines", "wall-map", "geometry"});
   const std::vector<std::string> solid{"carriers", "wall-map", "streamlines", "geometry"};
   only_of(given.azimuth.has_value(), "--azimuth", solid);
   only_of(given.elevation.has_value(), "--elevation", solid);

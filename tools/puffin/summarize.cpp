@@ -90,7 +90,10 @@ output::CarrierSummary carriers(const cases::Simulation& s) {
     double lost = 0.0;
     for (std::size_t p = 0; p < in.size(); ++p)
       lost += (s.state.fines.initial[in.id[p]] - s.state.fines.left[in.id[p]]) * of_loaded * in.single_mass(p);
-    const double on_walls = s.state.fines.to_wall.value() - s.state.fines.picked_up.value();
+    double on_walls = s.state.fines.to_wall.value() - s.state.fines.picked_up.value();
+    if (s.description.fines &&
+        s.state.scalars.scalars() > 0)  // what the air has brought there too, of the first scalar
+      on_walls = coupling::ledger(s.state.fines, s.state.scalars, s.state.budget, 0).on_walls;
     const double fine = c.count > 0 ? of_loaded * s.dose_mass / static_cast<double>(c.count) : 0.0;
     c.RDF = (retained_mass - lost + on_walls * fine) / s.dose_mass;
   }

@@ -58,6 +58,15 @@ TEST(Experiments, ATextWhereANumberBelongsIsAnErrorWithItsLine) {
   EXPECT_THROW(read_experiments(folder / "b.csv"), OutputError);
 }
 
+TEST(Experiments, AShortRowLeavesItsLastColumnsEmpty) {
+  const Scratch folder;
+  std::ofstream(folder / "a.csv") << "device,copy,test,FFE,RDF\nL-bend,L1,1,0.5\nL-bend\n";
+  const auto all = read_experiments(folder / "a.csv");
+  ASSERT_EQ(all.size(), 1u);
+  EXPECT_EQ(all[0].quantity, "FFE");
+  EXPECT_EQ(all[0].value, 0.5);
+}
+
 /// A study with one finished run whose FFE is 0.5 and whose pressure drop is 3000 Pa.
 void write_study(const Scratch& folder) {
   Summary s;

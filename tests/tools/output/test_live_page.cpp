@@ -2,6 +2,7 @@
 
 #include "tests/tools/output/scratch.hpp"
 #include "tools/output/csv_file.hpp"
+#include "tools/output/report/html.hpp"
 #include "tools/output/report/live_page.hpp"
 #include "tools/output/summary.hpp"
 
@@ -29,12 +30,19 @@ TEST(LivePage, RefreshesItselfWhileTheRunGoesOnAndThenLeadsToTheReport) {
 
 TEST(LivePage, ShowsHowFarItIsAndLoadsNothing) {
   const std::string page = page_in("running");
-  EXPECT_NE(page.find("<progress max=1 value=0.250"), std::string::npos) << page.substr(0, 4000);  // 50 of 200 ms
+  EXPECT_NE(page.find("<progress max=\"1\" value=\"0.2500\""), std::string::npos)
+      << page.substr(0, 4000);  // 50 of 200 ms
   EXPECT_NE(page.find("a &amp; b"), std::string::npos);
   EXPECT_NE(page.find("30 s"), std::string::npos);
   EXPECT_NE(page.find("<svg"), std::string::npos);
   EXPECT_EQ(page.find("http://"), std::string::npos);
   EXPECT_EQ(page.find("<script"), std::string::npos);
+}
+
+TEST(LivePage, ABarIsAPlainNumberHoweverLittleIsDone) {
+  EXPECT_EQ(progress_bar(1e-6), "<progress max=\"1\" value=\"0.0000\"></progress>");
+  EXPECT_EQ(progress_bar(7e-4, "class=\"b\""), "<progress max=\"1\" value=\"0.0007\" class=\"b\"></progress>");
+  EXPECT_EQ(progress_bar(1.5), "<progress max=\"1\" value=\"1.0000\"></progress>");
 }
 
 TEST(SummaryTable, HoldsEveryNumberUnderItsPath) {

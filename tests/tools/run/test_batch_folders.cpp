@@ -1,6 +1,7 @@
 // Studies and the folders they write: one for each case, none of another run, nothing missing in them.
 
 #include "tests/tools/run/batch_study.hpp"
+#include "tests/tools/run/small_dose.hpp"
 #include "tools/output/study_results.hpp"
 #include "tools/output/summary.hpp"
 
@@ -126,6 +127,39 @@ TEST_F(BatchStudy, AChangedTableOfALawIsNotThatOfTheFinishedRun) {
   EXPECT_NE(text("log.txt").find("with other laws than its micro-model file has now"), std::string::npos);
 }
 
+TEST_F(BatchStudy, AChangedTableOfAReplayIsReplayedAnew) {
+  file("case.toml", fall);
+  file("sound.toml", some_laws);
+  file("other.toml", "label = \"given\"\n[wall_detach]\nlaw = \"table\"\nfile = \"t.csv\"\n");
+  file("t.csv", "speed,fraction\n0,0\n10,0.5\n");
+  file("study.toml",
+       "base = \"case.toml\"\nshare = [\"micromodels\"]\n[[case]]\nname = \"a\"\n[[case]]\nname = \"b\"\n"
+       "set = { \"fines.micromodels\" = \"other.toml\" }\n");
+  ASSERT_EQ(batch(""), 0) << text("log.txt");
+  const auto left = [&] { return output::read_study_results(folder_ / "out").cases[1].find("FFCR")->mean; };
+  const double before = left();
+  file("t.csv", "speed,fraction\n0,0\n10,1\n");
+  ASSERT_EQ(batch(""), 0) << text("log.txt");
+  EXPECT_LT(left(), before);
+}
+
+// Its checkpoint is that of another friction: going on from it can never work, so it begins anew when it is tried
+// again.
+TEST_F(BatchStudy, WhatCannotGoOnFromItsCheckpointBeginsAnew) {
+  const std::string longer =
+      "set = { \"stop.time\" = \"1000 s\", \"output.checkpoint.wall\" = \"1 ms\", \"air.density\" = ";
+  file("study.toml", "base = \"case.toml\"\n[[case]]\nname = \"a\"\n" + longer + "1.2 }\n");
+  EXPECT_EQ(shell("timeout --signal=TERM 5 " + std::string(PUFFIN_BINARY_DIR) +
+                  "/puffin batch study.toml --out out > /dev/null 2>> log.txt"),
+            124);
+  ASSERT_FALSE(fs::is_empty(folder_ / "out/a/seed-1/checkpoints")) << text("log.txt");
+  file("study.toml", "base = \"case.toml\"\n[[case]]\nname = \"a\"\nset = { \"air.density\" = 1.3 }\n");
+  EXPECT_EQ(batch(""), 8);
+  EXPECT_NE(text("log.txt").find("it belongs to another case"), std::string::npos) << text("log.txt");
+  EXPECT_EQ(batch("--retry-failed"), 0) << text("log.txt");
+  EXPECT_TRUE(fs::exists(folder_ / "out/a/seed-1.failed-1/checkpoints"));
+}
+
 TEST_F(BatchStudy, ACaseThatCannotBeReplayedHasFailed) {
   file("case.toml", fall);
   file("sound.toml", some_laws);
@@ -143,6 +177,38 @@ TEST_F(BatchStudy, ACaseThatCannotBeReplayedHasFailed) {
   EXPECT_EQ(results.cases[0].runs[0].state, "done");
   EXPECT_EQ(results.cases[1].runs[0].state, "failed");
   EXPECT_EQ(results.cases[1].runs[0].exit_code, 7);
+}
+
+// A run alone, stopped, has a checkpoint; asked for beside the other one it goes on alone, as a shared flow keeps none.
+TEST_F(BatchStudy, AStoppedMemberOfASharedFlowGoesOnFromItsCheckpoint) {
+  file("case.toml", small_dose);
+  file("study.toml",
+       "base = \"case.toml\"\nshare = [\"one-way-flow\"]\n[[case]]\nname = \"a\"\nset = { \"stop.time\" = \"4 ms\" }\n"
+       "[[case]]\nname = \"b\"\nset = { \"stop.time\" = \"1 ms\" }\n");
+  const std::string program =
+      std::string(PUFFIN_BINARY_DIR) + "/puffin batch study.toml --out out --only a > /dev/null 2>> log.txt & ";
+  shell(program +
+        "for n in $(seq 600); do if grep -q '\"steps\": [1-9]' out/a/seed-1/status.json; then break; fi; sleep 0.02; "
+        "done; "
+        "kill -TERM $!; wait $!");
+  ASSERT_TRUE(fs::exists(folder_ / "out/a/seed-1/checkpoints")) << text("log.txt");
+  ASSERT_EQ(batch(""), 0) << text("log.txt");
+  EXPECT_NE(text("out/a/seed-1/log.txt").find("going on from"), std::string::npos);
+  EXPECT_NEAR(output::read_summary(folder_ / "out/a/seed-1/summary.json").simulated_time, 4e-3, 1e-5);
+}
+
+// Its page says which pictures are missing, the tables and the code stay what they are.
+TEST_F(BatchStudy, ARunWhoseFilesAreGoneTakesNoOthersPage) {
+  file("case.toml", small_dose);
+  file("study.toml", "base = \"case.toml\"\n[[case]]\nname = \"a\"\nset = { \"stop.time\" = \"2 ms\" }\n");
+  ASSERT_EQ(batch(""), 0) << text("log.txt");
+  for (const auto& entry : fs::directory_iterator(folder_ / "out/a/seed-1/vtk"))
+    if (entry.path().extension() != ".pvd") fs::remove_all(entry.path());
+  fs::remove_all(folder_ / "out/a/seed-1/images");
+  fs::remove(folder_ / "out/report.html");
+  EXPECT_EQ(batch("--json"), 0) << text("log.txt");
+  EXPECT_TRUE(fs::exists(folder_ / "out/report.html"));
+  EXPECT_NE(text("json.txt").find("\"FFE\""), std::string::npos);
 }
 
 }  // namespace

@@ -57,4 +57,39 @@ TEST_F(SlurmStudy, ATaskThatFailsFailsAloneAndARefusalIsTold) {
   EXPECT_NE(text("log.txt").find("invalid partition specified: night"), std::string::npos);
 }
 
+// A plug-in of the site may speak before sbatch gives the number. The first array holds a alone and is still in the
+// queue when all is asked for: it is watched first, then b is sent.
+TEST_F(SlurmStudy, WhatAnEarlierArrayLeftOutIsSentAfterIt) {
+  file("study.toml", "base = \"case.toml\"\n[[case]]\nname = \"a\"\n[[case]]\nname = \"b\"\n");
+  const std::string sbatch = text("bin/sbatch");
+  file("bin/sbatch", "#!/bin/sh\necho 'sbatch: note of the site' >&2\necho 'lua: 3 rules'\necho 78\n");
+  file("bin/squeue",
+       "#!/bin/sh\ntouch " + (folder_ / "asked").string() + "\necho 'slurm_load: a note'\necho '0 PENDING'\n");
+  const std::string stop =
+      "(while [ ! -e asked ]; do sleep 0.1; done; pkill -INT -f " + (folder_ / "study.toml").string() + ") & ";
+  EXPECT_EQ(shell(stop + "PATH=$PWD/bin:$PATH " + std::string(PUFFIN_BINARY_DIR) + "/puffin batch " +
+                  (folder_ / "study.toml").string() + " --slurm --out out --only a > /dev/null 2>> log.txt"),
+            130)
+      << text("log.txt");
+  EXPECT_EQ(text("out/slurm/array.txt"), "78\n0 a/seed-1\n");
+  file("bin/sbatch", sbatch);
+  file("bin/squeue", "#!/bin/sh\nif [ -e " + (folder_ / "gone").string() + " ]; then exit 0; fi\ntouch " +
+                         (folder_ / "gone").string() + "\necho '0 PENDING'\n");
+  EXPECT_EQ(slurm_batch(""), 75) << "a ended without a word: stopped";
+  EXPECT_EQ(text("sent.txt"), "1\n");
+  EXPECT_TRUE(fs::exists(folder_ / "out/b/seed-1/report.html"));
+  EXPECT_EQ(slurm_batch(""), 0);
+  EXPECT_EQ(text("sent.txt"), "1\n0\n");
+}
+
+TEST_F(SlurmStudy, AChangedStudyDoesNotWatchTheOldArray) {
+  file("study.toml", "base = \"case.toml\"\n[[case]]\nname = \"a\"\n[[case]]\nname = \"b\"\n");
+  fs::create_directories(folder_ / "out/slurm");
+  file("out/slurm/array.txt", "78\n0 a/seed-1\n5 f/seed-1\n");
+  file("bin/squeue", "#!/bin/sh\necho '0 PENDING'\n");
+  EXPECT_EQ(slurm_batch(""), 7);
+  EXPECT_NE(text("log.txt").find("has other runs than when Slurm job 78 was sent"), std::string::npos);
+  EXPECT_NE(text("out/status.json").find("\"failed\""), std::string::npos);
+}
+
 }  // namespace

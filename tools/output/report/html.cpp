@@ -77,6 +77,12 @@ std::string significant(double value, int digits) {
   return text;
 }
 
+std::string progress_bar(double part, const std::string& attributes) {
+  char text[64];
+  std::snprintf(text, sizeof text, "<progress max=\"1\" value=\"%.4f\"", std::clamp(part, 0.0, 1.0));
+  return text + (attributes.empty() ? "" : " " + attributes) + "></progress>";
+}
+
 std::string significant(const std::optional<double>& value, int digits) {
   return value ? significant(*value, digits) : "<span class=soft>none</span>";
 }

@@ -9,6 +9,9 @@ namespace puffin::output {
 
 /// &, <, > and quotes made harmless.
 std::string escaped(const std::string& text);
+/// A bar that is filled to `part` of 1; `attributes` of its own, like style="width:100%".
+std::string progress_bar(double part, const std::string& attributes = "");
+
 /// A number with so many significant digits; powers of ten as "1.2 x 10<sup>-9</sup>" where plain digits would be long.
 std::string significant(double value, int digits = 3);
 /// "not given" for an absent number.

@@ -54,8 +54,8 @@ std::string live_page(const Status& s, const std::vector<HistoryRow>& history) {
   const bool running = s.state == "running";
   const double done = s.end_time > 0 ? std::min(1.0, s.simulated_time / s.end_time) : 0.0;
   std::string body = "<h1>" + escaped(s.name) + "<span class=\"state " + (running ? "stopped" : escaped(s.state)) +
-                     "\">" + escaped(s.state) + "</span></h1>\n<div><progress max=1 value=" + significant(done) +
-                     " style=\"width:100%\"></progress></div>\n<div class=tiles>\n";
+                     "\">" + escaped(s.state) + "</span></h1>\n<div>" + progress_bar(done, "style=\"width:100%\"") +
+                     "</div>\n<div class=tiles>\n";
   body += tile(significant(1e3 * s.simulated_time, 3) + " of " + significant(1e3 * s.end_time, 3) + " ms", "simulated");
   body += tile(escaped(s.phase), "phase");
   body += tile(duration(s.wall_clock), "since the start");

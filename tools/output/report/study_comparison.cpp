@@ -15,13 +15,15 @@ std::string label_of(std::string quantity) {
   for (const char* unit : {"kPa", "Pa", "mg", "ug", "um"}) {
     const std::string tail = std::string("_") + unit;
     if (!quantity.ends_with(tail)) continue;
-    quantity = quantity.substr(0, quantity.size() - tail.size()) + " [" +
+    quantity = escaped(quantity.substr(0, quantity.size() - tail.size())) + " [" +
                (unit == std::string("ug")   ? "&micro;g"
                 : unit == std::string("um") ? "&micro;m"
                                             : unit) +
                "]";
-    break;
+    std::replace(quantity.begin(), quantity.end(), '_', ' ');
+    return quantity;
   }
+  quantity = escaped(quantity);
   std::replace(quantity.begin(), quantity.end(), '_', ' ');
   return quantity;
 }

@@ -21,12 +21,22 @@ std::vector<std::string> devices_of(const StudyResults& results) {
   return devices;
 }
 
+/// A run whose files were altered or taken away spoils its own pictures alone.
+template <class Section>
+std::string or_left_out(const Section& section) try {
+  return section();
+} catch (const OutputError& e) {
+  return left_out(e.what());
+}
+
 /// The first case of a device with a finished run that can show a view.
 const StudyCaseResult* case_with(const StudyResults& results, const fs::path& study, const std::string& device,
                                  View view) {
   for (const StudyCaseResult& c : results.cases)
-    if (const StudyRun* run = first_done(c); c.device == device && run && can_render(study / run->folder, view))
-      return &c;
+    if (const StudyRun* run = first_done(c); c.device == device && run) try {
+        if (can_render(study / run->folder, view)) return &c;
+      } catch (const OutputError&) {  // its files cannot be read
+      }
   return nullptr;
 }
 
@@ -60,8 +70,10 @@ std::string device_section(const StudyResults& results, const fs::path& study) {
       out += left_out("streamlines: no case of this device stores a field of the whole device.");
       continue;
     }
-    out += "<h3>Streamlines of " + escaped(lines->name) + " at four times</h3>\n" +
-           embedded(study / first_done(*lines)->folder, streamline_pictures(study / first_done(*lines)->folder), true);
+    out += "<h3>Streamlines of " + escaped(lines->name) + " at four times</h3>\n" + or_left_out([&] {
+             const fs::path run = study / first_done(*lines)->folder;
+             return embedded(run, streamline_pictures(run), true);
+           });
   }
   return out;
 }
@@ -80,7 +92,7 @@ std::string carrier_section(const StudyResults& results, const fs::path& study) 
     if (static_cast<int>(shown.size()) == most_cases)
       return out + left_out("pictures of further cases; they are in the report.html of each run.");
     shown.push_back(run->folder);
-    out += case_pictures(c, *run, study);
+    out += or_left_out([&] { return case_pictures(c, *run, study); });
   }
   return shown.empty() ? out + "<p>No run with carriers is done yet.</p>\n" : out;
 }

@@ -5,9 +5,12 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <chrono>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <thread>
 
 #include "tools/output/experiments.hpp"
 #include "tools/output/link_out.hpp"
@@ -58,8 +61,8 @@ std::string page_of(const Json& status) {
     const std::string id = output::escaped(job["id"].get<std::string>());
     rows.push_back({job["state"] == "waiting" ? id : "<a href=\"" + id + "/index.html\">" + id + "</a>",
                     job["state"].get<std::string>(),
-                    known ? "<progress max=1 value=" + output::significant(now / end) + "></progress> " +
-                                output::significant(1e3 * now) + " of " + output::significant(1e3 * end) + " ms"
+                    known ? output::progress_bar(now / end) + " " + output::significant(1e3 * now) + " of " +
+                                output::significant(1e3 * end) + " ms"
                           : output::escaped(job.value("message", "")),
                     job.contains("eta") && job["eta"].is_number() && known
                         ? output::significant(job["eta"].get<double>()) + " s to go"
@@ -176,6 +179,14 @@ fs::path Book::replay_file(std::size_t job, const Member& member) const {
 bool Book::resumable(std::size_t job) const {
   const fs::path run = run_folder(job);
   return fs::exists(run / "checkpoints") && !output::list_checkpoints(run).empty();
+}
+
+void Book::wait_until_free(std::size_t job) const {
+  const int folder = open(run_folder(job).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (folder < 0) return;
+  for (int tries = 0; tries < 200 && flock(folder, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK; ++tries)
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  close(folder);
 }
 
 void Book::move_aside(std::size_t job) const {

@@ -43,6 +43,8 @@ class Book {
   bool finished(std::size_t job) const;
   /// Whether there is a checkpoint to go on from.
   bool resumable(std::size_t job) const;
+  /// Waits, at most 20 s, for a process of a killed batch that is still closing the files of this run.
+  void wait_until_free(std::size_t job) const;
   /// Moves what a failed run left behind to ID.failed-N.
   void move_aside(std::size_t job) const;
 

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "cases/micromodel_file.hpp"
 #include "tools/output/output_folder.hpp"
 #include "tools/puffin/batch/pool.hpp"
 #include "tools/puffin/batch/slurm.hpp"
@@ -91,7 +92,7 @@ bool complete(std::size_t job, const cases::Study& study, const Jobs& plan, cons
     const std::filesystem::path file = book.replay_file(job, m), part = file.string() + ".part";
     if (m.micromodels.empty()) continue;
     const std::filesystem::path kept = std::filesystem::path(file).replace_extension(".toml");
-    const std::string laws = output::read_whole(m.micromodels);
+    const std::string laws = cases::micromodels_with_tables(m.micromodels);
     if (std::filesystem::exists(file) && output::read_whole(kept) == laws) continue;
     std::filesystem::remove(file);
     std::filesystem::remove(part);  // a link would be written through

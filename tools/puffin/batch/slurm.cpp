@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <fstream>
 #include <sstream>
+#include <utility>
 
 #include "tools/output/output_error.hpp"
 #include "tools/output/output_folder.hpp"
@@ -17,21 +18,34 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Answer {
-  std::string text;
+  std::string text, errors;  // what it prints, and what it says of itself: plug-ins of a site are told there
   int code = 0;
 };
 
-/// What a command prints, with its errors.
-Answer ask(const std::string& command) {
+Answer ask(const std::string& command, const fs::path& folder) {
   Answer answer;
-  FILE* pipe = popen((command + " 2>&1").c_str(), "r");
+  const fs::path errors = folder / "errors.txt";
+  FILE* pipe = popen((command + " 2> " + shell_quoted(errors.string())).c_str(), "r");
   if (!pipe) throw output::OutputError("cannot start " + command);
   char piece[4096];
   while (const std::size_t n = fread(piece, 1, sizeof piece, pipe)) answer.text.append(piece, n);
   const int status = pclose(pipe);
   answer.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128;
-  while (!answer.text.empty() && answer.text.back() == '\n') answer.text.pop_back();
+  answer.errors = output::read_whole(errors);
+  for (std::string* text : {&answer.text, &answer.errors})
+    while (!text->empty() && text->back() == '\n') text->pop_back();
   return answer;
+}
+
+/// Of "77" or "77;cluster", in a line of its own after whatever else a site prints.
+std::string id_in(const std::string& text) {
+  std::istringstream lines(text);
+  std::string id;
+  for (std::string line; std::getline(lines, line);) {
+    const std::string first = line.substr(0, line.find(';'));
+    if (!first.empty() && first.find_first_not_of("0123456789") == std::string::npos) id = first;
+  }
+  return id;
 }
 
 std::string listed(const std::vector<std::size_t>& jobs) {
@@ -60,15 +74,24 @@ std::string shell_quoted(const std::string& word) {
   return out + "'";
 }
 
-SlurmArray::SlurmArray(const fs::path& study) : folder_(study / "slurm") {
+SlurmArray::SlurmArray(const fs::path& study, std::vector<std::string> names)
+    : folder_(study / "slurm"), names_(std::move(names)) {
   std::ifstream stream(folder_ / "array.txt");
   stream >> id_;
-  for (std::size_t job = 0; stream >> job;) open_.push_back(job);
+  std::string name;
+  for (std::size_t job = 0; stream >> job && std::getline(stream >> std::ws, name);) {
+    open_.push_back(job);
+    same_study_ = same_study_ && job < names_.size() && names_[job] == name;
+  }
 }
 
 bool SlurmArray::queued() {
-  if (id_.empty() || states().empty()) return false;
-  return !open_.empty();
+  if (id_.empty() || open_.empty() || states().empty()) return false;
+  if (!same_study_)
+    throw output::OutputError("the study has other runs than when Slurm job " + id_ +
+                              " was sent, which is still in the queue; end it with 'scancel " + id_ +
+                              "', or give the changed study another folder with --out");
+  return true;
 }
 
 void SlurmArray::submit(const std::string& name, const std::vector<SlurmTask>& tasks, int cores, int at_a_time) {
@@ -94,13 +117,16 @@ void SlurmArray::submit(const std::string& name, const std::vector<SlurmTask>& t
                           shell_quoted((folder_ / "task-").string()) + "\"$SLURM_ARRAY_TASK_ID\".sh\n");
   const Answer answer =
       ask("sbatch --parsable --array=" + listed(open_) + (at_a_time > 0 ? "%" + std::to_string(at_a_time) : "") + " " +
-          shell_quoted((folder_ / "array.sh").string()));
+              shell_quoted((folder_ / "array.sh").string()),
+          folder_);
   if (answer.code != 0)
     throw output::OutputError("sbatch refused the array (exit code " + std::to_string(answer.code) +
-                              "): " + answer.text);
-  id_ = answer.text.substr(0, answer.text.find_first_of("; \n"));
+                              "): " + answer.errors + answer.text);
+  id_ = id_in(answer.text);
+  if (id_.empty()) throw output::OutputError("sbatch gave no number of a job: " + answer.text + answer.errors);
+  same_study_ = true;
   std::string book = id_ + "\n";
-  for (const std::size_t job : open_) book += std::to_string(job) + "\n";
+  for (const std::size_t job : open_) book += std::to_string(job) + " " + names_.at(job) + "\n";
   output::write_whole(folder_ / "array.txt", book);
 }
 
@@ -109,15 +135,21 @@ std::map<std::size_t, std::string> SlurmArray::states() const {
   const Answer answer =
       ask("squeue --noheader --array --states=PENDING,CONFIGURING,RUNNING,COMPLETING,SUSPENDED,REQUEUED"
           " --format='%K %T' --jobs=" +
-          shell_quoted(id_));
+              shell_quoted(id_),
+          folder_);
   std::map<std::size_t, std::string> states;
   if (answer.code != 0) {
-    if (answer.text.find("Invalid job id") != std::string::npos) return states;
-    throw output::OutputError("squeue fails (exit code " + std::to_string(answer.code) + "): " + answer.text);
+    if ((answer.errors + answer.text).find("Invalid job id") != std::string::npos) return states;
+    throw output::OutputError("squeue fails (exit code " + std::to_string(answer.code) + "): " + answer.errors +
+                              answer.text);
   }
   std::istringstream lines(answer.text);
-  std::size_t job = 0;
-  for (std::string state; lines >> job >> state;) states[job] = state;
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    std::size_t job = 0;
+    std::string state;
+    if (words >> job >> state) states[job] = state;  // other lines are of the site's plug-ins
+  }
   return states;
 }
 

@@ -17,10 +17,11 @@ struct SlurmTask {
 
 class SlurmArray {
  public:
-  /// Remembers the array of an earlier call, if slurm/array.txt names one.
-  explicit SlurmArray(const std::filesystem::path& study);
+  /// Remembers the array of an earlier call, if slurm/array.txt names one. `names`: of the study's jobs now.
+  SlurmArray(const std::filesystem::path& study, std::vector<std::string> names);
 
-  /// Whether the remembered array still has tasks in the queue. Then open() are those not yet booked as ended.
+  /// Whether the remembered array still has tasks in the queue. Then open() are those not yet booked as ended. Throws
+  /// output::OutputError if it has and its jobs are not those of the study now.
   bool queued();
   /// Writes slurm/task-N.sh and slurm/array.sh and sends them with sbatch; `at_a_time` 0: no limit. Partition, account
   /// and time limit are sbatch's own environment variables (SBATCH_PARTITION, ...). Throws output::OutputError with
@@ -43,6 +44,8 @@ class SlurmArray {
   std::map<std::size_t, std::string> states() const;
 
   std::filesystem::path folder_;
+  std::vector<std::string> names_;
+  bool same_study_ = true;  // as when the remembered array was sent
   std::string id_;
   std::vector<std::size_t> open_;
 };

@@ -6,11 +6,13 @@
 #include <fstream>
 #include <thread>
 
+#include "tools/output/output_error.hpp"
 #include "tools/output/output_folder.hpp"
 #include "tools/output/summary.hpp"
 #include "tools/puffin/batch/pool.hpp"
 #include "tools/puffin/batch/program_calls.hpp"
 #include "tools/puffin/batch/slurm.hpp"
+#include "tools/puffin/checkpoint_store.hpp"
 #include "tools/puffin/console.hpp"
 #include "tools/puffin/exit_codes.hpp"
 #include "tools/puffin/signals.hpp"
@@ -22,7 +24,6 @@ using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 constexpr int killed_by = 128;  // and the signal's number: Child::ended
-
 struct Running {
   std::size_t job;
   std::vector<std::size_t> group;  // that run in its process, itself included
@@ -40,13 +41,19 @@ class Batch {
   }
 
   int run() {
-    sort_out();
-    book_.write();
-    if (options_.slurm)
-      watch_slurm();
-    else
-      run_here();
-    book_.write();
+    try {
+      sort_out();
+      book_.write();
+      if (options_.slurm)
+        run_with_slurm();
+      else
+        run_here();
+      book_.write();
+    } catch (const std::exception&) {  // the page must not wait for ever
+      live_state_ = "failed";
+      live(true);
+      throw;
+    }
     const int code = exit_code();
     live_state_ = code == ok ? "finished" : code == batch_failed ? "failed" : "stopped";
     live(true);
@@ -64,24 +71,29 @@ class Batch {
     }
   }
 
-  /// The waiting runs as one array; then its tasks are booked as they end. An array that is still in the queue from an
-  /// earlier call is watched, not sent again.
-  void watch_slurm() {
-    SlurmArray array(book_.folder());
-    if (!array.queued()) {
-      std::vector<SlurmTask> tasks;
-      const int threads = std::max(1, options_.threads);
-      for (const std::size_t n : waiting_) {
-        const std::vector<std::size_t> group = group_of(n);
-        for (const std::size_t m : group) {
-          std::filesystem::create_directories(book_.run_folder(m));
-          book_.record(m).threads = threads;
-        }
-        if (group.front() == n) tasks.push_back({n, arguments_of(group, threads), book_.log_file(n)});
+  /// An array still in the queue from an earlier call is watched. Then all that waits goes out as one.
+  void run_with_slurm() {
+    std::vector<std::string> names;
+    for (const Job& job : plan_.jobs) names.push_back(job.id);
+    SlurmArray array(book_.folder(), names);
+    if (array.queued()) watch(array);
+    std::erase_if(waiting_, [&](std::size_t n) { return book_.record(n).state != JobState::waiting; });
+    if (Signals::received() != 0 || waiting_.empty()) return;
+    std::vector<SlurmTask> tasks;
+    const int threads = std::max(1, options_.threads);
+    for (const std::size_t n : waiting_) {
+      const std::vector<std::size_t> group = group_of(n);
+      for (const std::size_t m : group) {
+        std::filesystem::create_directories(book_.run_folder(m));
+        book_.record(m).threads = threads;
       }
-      if (tasks.empty()) return;
-      array.submit(study_.file.stem().string(), tasks, threads, options_.jobs);
+      if (group.front() == n) tasks.push_back({n, arguments_of(group, threads), book_.log_file(n)});
     }
+    array.submit(study_.file.stem().string(), tasks, threads, options_.jobs);
+    watch(array);
+  }
+
+  void watch(SlurmArray& array) {
     if (!options_.quiet) log_info("Slurm job " + array.id() + ": " + std::to_string(array.open().size()) + " runs");
     for (const std::size_t n : array.open())
       for (const std::size_t m : group_of(n)) book_.record(m).state = JobState::waiting;
@@ -90,7 +102,7 @@ class Batch {
         for (const std::size_t n : group_of(change.job)) {
           JobRecord& r = book_.record(n);
           if (change.ended) {
-            ended(n, own_code(n, change.job, change.exit_code, plan_, book_));
+            book_end(n, change.job, change.exit_code);
           } else if (r.state != JobState::running) {
             r.state = JobState::running;
             ++r.attempts;
@@ -133,7 +145,8 @@ class Batch {
         log_warning(plan_.jobs[n].id + " failed before (" + r.message + "); --retry-failed tries it again");
         continue;
       }
-      if (r.state == JobState::failed && (r.exit_code == diverged || !book_.resumable(n))) book_.move_aside(n);
+      const bool useless = r.exit_code == diverged || cannot_go_on(r.message) || !book_.resumable(n);
+      if (r.state == JobState::failed && useless) book_.move_aside(n);
       r.state = JobState::waiting;
       waiting_.push_back(n);
     }
@@ -141,15 +154,17 @@ class Batch {
                      [&](std::size_t a, std::size_t b) { return plan_.jobs[a].cost > plan_.jobs[b].cost; });
   }
 
-  /// The jobs that are not done and run in one process with this one, itself included, in the order of the plan.
+  /// The jobs that are not done and run in one process with this one, itself included, in the order of the plan. One
+  /// with a checkpoint goes on alone.
   std::vector<std::size_t> group_of(std::size_t n) const {
-    if (plan_.jobs[n].flow.empty()) return {n};
+    if (plan_.jobs[n].flow.empty() || book_.resumable(n)) return {n};
     std::vector<std::size_t> group;
     for (std::size_t m = 0; m < plan_.jobs.size(); ++m) {
       const JobState state = book_.record(m).state;
       const bool now = m == n || std::find(waiting_.begin(), waiting_.end(), m) != waiting_.end() ||
                        state == JobState::running || state == JobState::stopped;
-      if (plan_.jobs[m].flow == plan_.jobs[n].flow && now && wanted(plan_.jobs[m]) && state != JobState::done)
+      if (plan_.jobs[m].flow == plan_.jobs[n].flow && now && wanted(plan_.jobs[m]) && state != JobState::done &&
+          !book_.resumable(m))
         group.push_back(m);
     }
     return group;
@@ -172,6 +187,7 @@ class Batch {
       std::erase(waiting_, m);
       std::filesystem::create_directories(book_.run_folder(m));
       JobRecord& r = book_.record(m);
+      if (r.attempts > 0) book_.wait_until_free(m);
       r.state = JobState::running;
       r.threads = m == n ? threads : 0;  // the cores of a group are counted once
       r.message.clear();
@@ -195,8 +211,18 @@ class Batch {
       const std::size_t starter = running_[k].job;
       for (const std::size_t n : group) book_.record(n).seconds = seconds_since(running_[k].start);
       running_.erase(running_.begin() + static_cast<std::ptrdiff_t>(k));
-      for (const std::size_t n : group) ended(n, own_code(n, starter, *code, plan_, book_));
+      for (const std::size_t n : group) book_end(n, starter, *code);
       book_.write();
+    }
+  }
+
+  /// The end of the process of `starter` for a run in it. One that was of another case than the study had when the
+  /// batch began, since a file was edited meanwhile, fails alone.
+  void book_end(std::size_t n, std::size_t starter, int code) {
+    try {
+      ended(n, own_code(n, starter, code, plan_, book_));
+    } catch (const output::OutputError& e) {
+      fail(n, input_output, e.what());
     }
   }
 
