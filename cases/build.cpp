@@ -20,6 +20,7 @@ std::unique_ptr<Simulation> build(const Case& c, const StoredFieldReader& stored
   for (const lbm::geometry::Defect& d : s->surface.defects)
     if (d.kind == "duplicate facet") s->warnings.push_back(d.kind + ": " + d.message);
   if (const auto problems = boundary_problems(c, s->surface); !problems.empty()) throw CaseError(problems);
+  for (std::string& text : boundary_warnings(c, s->surface)) s->warnings.push_back(std::move(text));
   refuse_untagged_openings(c, s->surface.patches);
   require_room(c, s->surface, available);
   s->tree = std::make_shared<const lbm::geometry::TriangleTree>(s->surface.mesh);

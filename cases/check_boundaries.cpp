@@ -9,6 +9,7 @@
 #include "cases/opening.hpp"
 #include "cases/spelling.hpp"
 #include "cases/units.hpp"
+#include "lbm/geometry/surface_check.hpp"
 
 namespace puffin::cases {
 
@@ -237,5 +238,27 @@ Problem problem_at(const Case& c, const std::string& key, const std::string& tex
 }
 
 std::vector<Problem> boundary_problems(const Case& c, const Surface& surface) { return Checks(c, surface).all(); }
+
+std::vector<std::string> boundary_warnings(const Case& c, const Surface& surface) {
+  std::vector<std::string> warnings;
+  for (const Boundary& b : c.air.boundaries) {
+    if (b.type != BoundaryType::moving_wall) continue;
+    const Vec3& velocity = std::get<Velocity>(b.flow).value;
+    const int patch = surface.patches.find(b.patch);
+    double fastest = 0.01 * velocity.norm();  // what facets of a wall that slides along itself may have
+    int at = -1;
+    for (std::size_t t = 0; t < surface.mesh.triangles.size(); ++t) {
+      if (surface.patches.of_triangle[t] != patch) continue;
+      const double across = std::abs(velocity.dot(surface.mesh.area_vector(static_cast<int>(t)).normalized()));
+      if (across > fastest) fastest = across, at = static_cast<int>(t);
+    }
+    if (at >= 0)
+      warnings.push_back("the moving wall '" + b.patch + "' has " + format_quantity(fastest, unit::velocity) +
+                         " along its normal at " + lbm::geometry::place_text(surface.mesh.corner(at, 0)) +
+                         ": it gives air this speed but stays where it is, so the flow is that of one moment; for "
+                         "air that comes in, make it a velocity-inlet");
+  }
+  return warnings;
+}
 
 }  // namespace puffin::cases

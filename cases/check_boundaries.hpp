@@ -15,6 +15,10 @@ namespace puffin::cases {
 /// time step too long for any scheme. Every problem, at its place in the file.
 std::vector<Problem> boundary_problems(const Case& c, const Surface& surface);
 
+/// Moving walls that do not slide along themselves: by more than 1 % of their speed, with the triangle where it is
+/// most.
+std::vector<std::string> boundary_warnings(const Case& c, const Surface& surface);
+
 /// A problem at the place of a key (dotted), or of the nearest table around it.
 Problem problem_at(const Case& c, const std::string& key, const std::string& text);
 

@@ -175,8 +175,10 @@ Opening opening_of(const Case& c, const Surface& surface, int patch) {
   }
   if (!(o.area > 0.0) || !(o.normal.norm() > 1e-9 * o.area))
     throw lbm::geometry::GeometryError("the patch '" + surface.patches.names[patch] + "' has no area or no direction");
-  o.normal.normalize();
   o.centroid /= o.area;
+  // Through a patch that is not plane, half a pipe's surface or two faces, air crosses its projection.
+  if (const double across = 0.5 * o.normal.norm(); across < (1.0 - 1e-6) * o.area) o.area = across;
+  o.normal.normalize();
   fit_rectangle(surface, patch, o);
   find_walls(c, surface, patch, o);
   return o;

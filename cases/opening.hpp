@@ -12,7 +12,7 @@ namespace puffin::cases {
 struct Opening {
   Vec3 normal = Vec3::Zero();    // mean, out of the fluid
   Vec3 centroid = Vec3::Zero();  // of the area [m]
-  double area = 0.0;             // [m^2]
+  double area = 0.0;             // [m^2] of a patch that is not plane: of its projection along the normal
   double radius = 0.0;           // [m] largest distance of a corner from the centroid
   // The smallest rectangle around the patch. Of equal sides the second is the one nearer to z, then to y.
   Vec3 centre = Vec3::Zero();                 // [m]

@@ -61,10 +61,17 @@ Air make_air(const geometry::Voxels& voxels, const LinkGeometry& surface, const 
   Air air;
   air.boundaries = surface.boundaries;
   air.normal.assign(surface.boundaries.size(), Vec3::Zero());
-  for (std::size_t t = 0; t < surface.mesh->triangles.size(); ++t)
-    air.normal[surface.patch_of_triangle[t]] += surface.mesh->area_vector(static_cast<int>(t));
+  std::vector<double> all(surface.boundaries.size(), 0.0);
+  for (std::size_t t = 0; t < surface.mesh->triangles.size(); ++t) {
+    const Vec3 area = surface.mesh->area_vector(static_cast<int>(t));
+    air.normal[surface.patch_of_triangle[t]] += area;
+    all[surface.patch_of_triangle[t]] += area.norm();
+  }
   for (std::size_t b = 0; b < surface.boundaries.size(); ++b) {
-    if (air.normal[b].norm() > 0.0) air.normal[b].normalize();
+    if (air.normal[b].norm() > 1e-6 * all[b])
+      air.normal[b].normalize();
+    else
+      air.normal[b].setZero();  // faces that look against each other
     if (surface.boundaries[b].kind == BoundaryKind::periodic)
       for (int d = 0; d < 3; ++d) periodic[d] = periodic[d] || std::abs(air.normal[b][d]) > 0.99;
   }

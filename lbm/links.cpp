@@ -238,7 +238,7 @@ Links build_links(const Rows& rows, const LinkGeometry& surface, WallScheme sche
       if (surface.patch_of_triangle[t] == static_cast<int>(b)) normal += surface.mesh->area_vector(static_cast<int>(t));
     const double patch_area = 0.5 * normal.norm() / (dx * dx);
     normal.normalize();
-    double gain = 0.0, speed = 0.0, area = 0.0;
+    double gain = 0.0, speed = 0.0, area = 0.0, faces = 0.0;
     for (const Edge& edge : edges)
       if (edge.inlet == static_cast<int>(b)) gain += edge.own;
     for (const auto* list : {&links.inlets, &links.outlets})
@@ -248,11 +248,11 @@ Links build_links(const Rows& rows, const LinkGeometry& surface, WallScheme sche
         if (link.direction > 6) continue;  // faces of cells alone make up the area
         const auto& c = d3q19::velocity[link.direction];
         const double face = std::abs(normal.dot(Vec3(c[0], c[1], c[2])));
-        area += face;
+        area += face, faces += 1.0;
         if (boundary.profile) speed -= face * normal.dot(boundary.profile(rows.centre(link.slot)));
       }
     links.opening_cells_area[b] = area;
-    if (area == 0.0)
+    if (faces == 0.0)
       throw std::runtime_error("the opening '" + boundary.patch +
                                "' touches no cell of the fluid; dx is too large for it");
     if (boundary.kind != BoundaryKind::velocity_inlet) continue;

@@ -94,7 +94,9 @@ FluxRoutes find_routes(const Air& air, FaceFluxes& fluxes) {
     for (const auto& link : *list) {
       const std::ptrdiff_t own = booked(link);
       const Run& run = rows.runs()[air.run_of_slot[own]];
-      const geometry::Vec3& normal = air.normal[link.patch];
+      const auto& away = d3q19::velocity[link.direction];
+      const geometry::Vec3 normal =
+          air.normal[link.patch].isZero() ? geometry::Vec3(away[0], away[1], away[2]) : air.normal[link.patch];
       int best = 0;
       double most = -2.0;
       for (int i = 1; i <= 6; ++i) {

@@ -7,7 +7,8 @@ namespace puffin::lbm {
 
 namespace {
 
-/// Half of what the links of both layers exchange with moving walls: each lies in the plane with one of its ends.
+/// Half of what the links of both layers exchange with sliding walls: each lies in the plane with one of its ends.
+/// Walls that only let go of a plug carry nothing from cell to cell: each cell gives back what it gains there.
 double moved_by_walls(const Air& air, int axis, int index, int next) {
   double moved = 0.0;
   for (const WallRun& wall : air.links.walls) {
@@ -19,8 +20,10 @@ double moved_by_walls(const Air& air, int axis, int index, int next) {
         if (!(wall.directions >> i & 1U)) continue;
         ++k;
         const int sign = d3q19::velocity[i][axis];  // towards the plane
+        const std::size_t at = wall.coefficient + static_cast<std::size_t>(k) * wall.count + n;
         if (sign == 0 || layer != (sign > 0 ? index : next)) continue;
-        moved -= 0.5 * sign * air.links.moving[wall.coefficient + static_cast<std::size_t>(k) * wall.count + n];
+        if (!air.boundaries[air.links.wall_patch[at]].slides) continue;
+        moved -= 0.5 * sign * air.links.moving[at];
       }
     }
   }

@@ -65,6 +65,20 @@ TEST(Boundaries, ImmersedWallsThatMoveMeetNoStandingOnes) {
             std::string::npos);
 }
 
+// A wall of a box of 10 x 10 x 10 mm: along itself, 0.5 % askew (a facet), and by a tenth of its speed away from the
+// air.
+TEST(Boundaries, AMovingWallSlidesAlongItself) {
+  const auto told = [](const std::string& velocity) {
+    const Case c = parse(scene(box, boundary("z-max", "type = \"moving-wall\"\nvelocity = [" + velocity + "]")));
+    return boundary_warnings(c, load_surface(c));
+  };
+  EXPECT_TRUE(told("1.0, 0.5, 0.0").empty());
+  EXPECT_TRUE(told("1.0, 0.0, 0.005").empty());
+  const auto away = told("1.0, 0.0, 0.1");
+  ASSERT_EQ(away.size(), 1U);
+  EXPECT_EQ(away.front().find("the moving wall 'z-max' has 0.1 m/s along its normal at ("), 0U) << away.front();
+}
+
 // 1 m/s through cells of 1 mm: a step of 2e-3 s crosses two of them, one of 0.25 ms a quarter. As `lattice_speed` a 2
 // is refused at once; such a run diverged four times before it gave up.
 TEST(Boundaries, ATimeStepThatNoSchemeCanTakeIsRefused) {

@@ -68,6 +68,7 @@ int check_case(const CaseArguments& a) {
   cases::Assessment assessment = cases::assess(c, surface);
   check_places(c, surface, assessment);
   check_stability(c, assessment);
+  for (auto& w : cases::boundary_warnings(c, surface)) assessment.warnings.push_back(std::move(w));
   for (const lbm::geometry::Defect& d : surface.defects) assessment.warnings.push_back(d.kind + ": " + d.message);
   const std::vector<std::string> assumed = cases::assumptions(c);
   if (a.json) {
