@@ -257,8 +257,9 @@ void build_air(Simulation& s) {
   if (c.air.model == AirModel::frozen && c.fines) return build_frozen_cells(s);
   if (c.air.model != AirModel::lbm) {
     // No lattice: the step only says how often the loads are renewed.
-    rule.reference_dt = c.numerics.time_step == TimeStepRule::given ? c.numerics.time_step_seconds
-                                                                    : std::min(1e-5, c.stop.time / 100.0);
+    rule.reference_dt = c.numerics.time_step == TimeStepRule::given
+                            ? c.numerics.time_step_seconds
+                            : std::min({1e-5, c.stop.time / 100.0, 0.5 * response_time(c)});
     s.state.scale = {s.dx, rule.reference_dt, std::max(c.air.density, 1e-12)};
     std::vector<lbm::Boundary> unused;
     describe_patches(c, s.surface, unused, s.models.patches);

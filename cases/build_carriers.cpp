@@ -56,6 +56,7 @@ dem::Surfaces surfaces_of(const Contact& carrier, const Contact& contact, const 
     linear.max_overlap = contact.max_overlap;
     surfaces.contact = linear;
   }
+  if (!(adhesion.surface_energy > 0.0)) return surfaces;  // the end of a sweep: none
   if (adhesion.model == AdhesionModel::hamaker) {
     auto hamaker = adhesion_of<dem::Hamaker>(adhesion, seed);
     hamaker.hamaker = adhesion.hamaker;
@@ -151,7 +152,9 @@ void build_carriers(Simulation& s) {
     s.warnings.push_back(
         "carriers.volume_fraction: in frozen air every carrier is dragged as one alone, whatever lies beside it");
   const Numerics& n = s.description.numerics;
-  m.steps_per_exchange = n.coupling_interval;
+  // A frozen field costs nothing to read: the loads are renewed every step.
+  const bool read_anew = s.description.air.model == AirModel::frozen && !s.description.fines;
+  m.steps_per_exchange = read_anew ? 1 : n.coupling_interval;
   m.steps_per_exchange_asleep =
       n.skip.resting_exchange ? std::max(m.steps_per_exchange_asleep, n.coupling_interval) : n.coupling_interval;
   m.carriers.integration.sleep = n.skip.sleeping_carriers;

@@ -77,7 +77,10 @@ std::vector<std::string> carrier_place_warnings(const Case& c, const lbm::geomet
   if (c.carriers->list.empty()) return warnings;
   const std::vector<ListedCarrier>& list = c.carriers->list;
   const auto radius = [&](std::size_t i) { return 0.5 * parcel_diameter(list[i].diameter, c.carriers->parcel); };
+  constexpr std::size_t most_named = 10;
+  std::size_t overlaps = 0;
   const auto say = [&](std::size_t i, double depth, const std::string& where) {
+    if (++overlaps > most_named) return;
     warnings.push_back(element("carriers.list", i) + " starts " + length(depth) + " deep in " + where +
                        ": the overlap is taken as its shape and pushes nothing");
   };
@@ -98,6 +101,8 @@ std::vector<std::string> carrier_place_warnings(const Case& c, const lbm::geomet
       if (depth > shape * std::min(radius(i), radius(j)))
         say(std::max(i, j), depth, element("carriers.list", std::min(i, j)));
     }
+  if (overlaps > most_named)
+    warnings.push_back("carriers.list has " + std::to_string(overlaps - most_named) + " more such overlaps");
   return warnings;
 }
 

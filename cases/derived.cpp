@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <stdexcept>
 
@@ -108,6 +109,17 @@ double fines_diameter(const Carriers& c, double fines_density) {
   const double diameter = first ? c.list.front().diameter : c.diameter;
   const double density = first ? c.list.front().density : c.density;
   return diameter * std::cbrt(c.fine_mass_ratio * density / fines_density);
+}
+
+double response_time(const Case& c) {
+  double least = std::numeric_limits<double>::infinity();
+  if (c.air.model != AirModel::frozen || !c.carriers) return least;
+  const auto take = [&](double diameter, double density) {
+    if (diameter > 0.0) least = std::min(least, density * diameter * diameter / (18.0 * c.air.viscosity));
+  };
+  for (const ListedCarrier& one : c.carriers->list) take(one.diameter, one.density);
+  if (c.carriers->list.empty()) take(c.carriers->diameter, c.carriers->density);
+  return least;
 }
 
 }  // namespace puffin::cases

@@ -82,6 +82,11 @@ SizeTable size_table(const SizeDistribution& distribution) {
     throw std::invalid_argument("carriers.diameter: nothing of the distribution lies between its cuts");
   const double step = std::log(high / low) / classes;
   double sum = 0.0;
+  if (!curve.share.empty() && low == curve.diameter.front() && curve.share.front() > 0.0) {
+    sum = curve.share.front();  // what a table says to be no larger than its smallest has that size
+    table.diameter.push_back(low);
+    table.cumulative.push_back(sum);
+  }
   for (int k = 0; k < classes; ++k) {
     const double from = low * std::exp(k * step), to = low * std::exp((k + 1) * step), middle = std::sqrt(from * to);
     const double share = curve.below(to) - curve.below(from);

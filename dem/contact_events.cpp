@@ -84,7 +84,9 @@ void begin_contact(const Meeting& m, std::size_t index, const Substep& substep, 
   c.normal_speed = speed, c.tangential_speed = tangential;
   double load = w.record_a.load_size;
   if (w.b != nullptr) load = std::max(load, w.record_b->load_size);
-  c.stiffness = first_stiffness(w.law, w.pair, pulled, load);
+  const double allowed =
+      w.b == nullptr ? w.pair.allowed : glancing_overlap(w.pair, w.constants.reach, speed, velocity.norm());
+  c.stiffness = first_stiffness(w.law, w.pair, pulled, load, allowed);
   push(-m.normal * ((pulled - speed) * w.pair.mass), w.a, w.b);
 
   // Placed at rest against each other: a bond that carries its load from the start.

@@ -96,7 +96,9 @@ template <class R>
     const R s = minimum(R(0.99), (overlap - c.knee) / c.knee), rest = R(1.0) - s;
     n.spring = select(over, n.spring + c.knee_stiffness * c.knee * s * s / rest, n.spring);
     n.tangent = select(over, n.tangent + c.knee_stiffness * (R(2.0) - s) * s / (rest * rest), n.tangent);
-    n.eta = select(over, R(2.0 * law.zeta) * root(n.tangent / c.inverse_mass), n.eta);
+    // Of a spring K x^p the dashpot 2 zeta (m (p + 1)/2 K x^(p-1))^(1/2) returns the same restitution: tangent and
+    // secant in equal parts, as Tsuji's of Hertz (5/6 of the tangent).
+    n.eta = select(over, R(2.0 * law.zeta) * root(R(0.5) * (n.tangent + n.spring / overlap) / c.inverse_mass), n.eta);
     n.step = select(over, R(law.step_factor) / root(n.tangent * c.inverse_mass), n.step);
   }
   return n;

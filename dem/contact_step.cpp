@@ -96,9 +96,13 @@ Look look_at(std::size_t index, const Substep& substep, const Rules& rules, cons
     look.latest = substep.time + soonest;
     return look;
   }
-  const double closing = -m.normal.dot(centre_velocity(a, b));
+  const Vector3d approach = centre_velocity(a, b);
+  const double closing = -m.normal.dot(approach);
   if (closing <= 0.0 || -m.overlap > closing * substep.horizon) return look;
-  const double k = first_stiffness(rules.law(b == nullptr), pair, closing, cluster.records[touch.a].load_size);
+  const double allowed = b == nullptr
+                             ? pair.allowed
+                             : glancing_overlap(pair, cluster.constants[touch.pair].reach, closing, approach.norm());
+  const double k = first_stiffness(rules.law(b == nullptr), pair, closing, cluster.records[touch.a].load_size, allowed);
   look.step = -m.overlap / closing + 0.5 * allowed_step(rules.springs(b == nullptr), pair, k);
   return look;
 }

@@ -90,16 +90,23 @@ PairLaw pair_law(const SurfaceLaw& law, double radius_a, double single_a, double
   return pair;
 }
 
-double first_stiffness(const SurfaceLaw& law, const PairLaw& pair, double speed, double load) {
+double glancing_overlap(const PairLaw& pair, double length, double closing, double speed) {
+  constexpr double part = 0.05, least = 0.1;
+  if (!(speed > 0.0)) return pair.allowed;
+  const double cosine = closing / speed;
+  return std::clamp(0.5 * part * length * cosine * cosine, least * pair.allowed, pair.allowed);
+}
+
+double first_stiffness(const SurfaceLaw& law, const PairLaw& pair, double speed, double load, double overlap) {
   if (law.hertz) {
     const double e = law.moduli.normal;
-    const double overlap = std::max(hertz_peak_overlap(e, pair.radius, pair.mass, speed),
+    const double deepest = std::max(hertz_peak_overlap(e, pair.radius, pair.mass, speed),
                                     hertz_overlap(e, pair.radius, load + pair.largest_pull()));
-    return hertz_stiffness(e, std::max(hertz_radius(pair.radius, overlap), pair.jkr.radius));
+    return hertz_stiffness(e, std::max(hertz_radius(pair.radius, deepest), pair.jkr.radius));
   }
   if (law.stiffness > 0.0) return law.stiffness;
   // The dashpot and the sub-steps move the peak by up to a few per cent: 5 % more stiffness is 2.5 % less overlap.
-  const double s = speed * law.peak / pair.allowed;  // as stiffness_for_overlap()
+  const double s = speed * law.peak / overlap;  // as stiffness_for_overlap()
   const double impact = 1.05 * pair.mass * s * s;
   // At rest adhesion and load press with a force that shall use a tenth of the allowed overlap.
   const double rest = 10.0 * (pair.pull_off + load) / pair.allowed;

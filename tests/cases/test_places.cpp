@@ -53,6 +53,14 @@ TEST(Places, DeepOverlapsAreSaidAndContactsAreNot) {
       << warnings[1];
 }
 
+TEST(Places, TenOverlapsAreNamedAndTheOthersCounted) {
+  std::string places;
+  for (int i = 0; i < 15; ++i) places += at("[1e-3, 1e-3, " + std::to_string(1e-3 + 50e-6 * i) + "]");
+  const auto warnings = carrier_place_warnings(scene(places, ""), tree_of(scene(places, "")));
+  ASSERT_EQ(warnings.size(), 11U);
+  EXPECT_EQ(warnings.back(), "carriers.list has 4 more such overlaps");
+}
+
 TEST(Places, CarriersAreNoPartOfPeriodicPatchesAndMovingWalls) {
   Case c = scene(at("[1e-3, 1e-3, 1e-3]"), "");
   EXPECT_TRUE(carrier_place_warnings(c, tree_of(c)).empty());
