@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "cases/check_boundaries.hpp"
 #include "cases/units.hpp"
@@ -29,7 +30,14 @@ PointReader::PointReader(const cases::Simulation& s) {
 
 namespace {
 constexpr double whole = 1.0 - 1e-6;  // weight of eight cells that are all in the fluid
-}
+// Weight from which on half of them are: in the plane of an opening, or of a second wall, it is 1/2 but for rounding,
+// 1e-14, which must not decide.
+constexpr double half = 0.5 - 1e-6;
+constexpr double nothing = 1e-6;  // weight below which none is
+// Support points of the wall's parabola lie at once and twice one of these from the wall [dx]. The eight cells around a
+// point are nearer to it than sqrt(3) dx: beyond the last, no plane wall takes one away.
+constexpr double supports[] = {1.0, 1.25, 1.5, 1.75};
+}  // namespace
 
 PointReader::Mean PointReader::mean_of_cells(const cases::Simulation& s, const Vec3& x) const {
   const auto& rows = s.state.air->rows;
@@ -71,14 +79,23 @@ PointReader::Mean PointReader::curved_mean(const cases::Simulation& s, const Vec
     const double bend = 0.5 * part * (1.0 - part);
     if (bend < 1e-9) continue;
     const Vec3 cell = rows.dx() * Vec3::Unit(d);
-    for (const int middle : {0, 1, -1}) {  // the second difference around the point, else beside it
-      const auto at_step = [&](int n) { return n == 0 ? linear : mean_of_cells(s, x + n * cell); };
-      const Mean a = at_step(middle - 1), b = at_step(middle), c = at_step(middle + 1);
-      if (std::min({a.weight, b.weight, c.weight}) < whole) continue;
-      curved.reading.velocity -= bend * (a.reading.velocity - 2.0 * b.reading.velocity + c.reading.velocity);
-      curved.reading.pressure -= bend * (a.reading.pressure - 2.0 * b.reading.pressure + c.reading.pressure);
-      break;
-    }
+    const auto straighten = [&](const Vec3& aside) {
+      for (const int middle : {0, 1, -1}) {  // the second difference around the point, else beside it
+        const auto at_step = [&](int n) {
+          return n == 0 && aside.isZero(0.0) ? linear : mean_of_cells(s, x + aside + n * cell);
+        };
+        const Mean a = at_step(middle - 1), b = at_step(middle), c = at_step(middle + 1);
+        if (std::min({a.weight, b.weight, c.weight}) < whole) continue;
+        curved.reading.velocity -= bend * (a.reading.velocity - 2.0 * b.reading.velocity + c.reading.velocity);
+        curved.reading.pressure -= bend * (a.reading.pressure - 2.0 * b.reading.pressure + c.reading.pressure);
+        return true;
+      }
+      return false;
+    };
+    // Under the crown of a pipe the row holds too few cells; the next one, of the same parabola, holds enough.
+    const Vec3 none = Vec3::Zero(), e = rows.dx() * Vec3::Unit((d + 1) % 3), f = rows.dx() * Vec3::Unit((d + 2) % 3);
+    for (const Vec3& aside : {none, e, Vec3(-e), f, Vec3(-f)})
+      if (straighten(aside)) break;
   }
   return curved;
 }
@@ -89,42 +106,67 @@ std::optional<PointReading> PointReader::read(const cases::Simulation& s, const 
     return PointReading{s.models.frozen_air(x), 0.0};
   }
   if (!s.state.air) return std::nullopt;
-  const double dx = s.state.air->rows.dx();
-  Mean mean = curved_mean(s, x);
+  const Mean mean = curved_mean(s, x);
   if (mean.weight >= whole) return mean.reading;
-  const auto near = walls_ ? walls_->closest(x, dx) : lbm::geometry::Closest{};
-  if (near.triangle < 0) {
-    if (mean.weight < 1e-6) return std::nullopt;
-    return mean.reading;
+  return beside_wall(s, x, mean);
+}
+
+std::optional<PointReading> PointReader::beside_wall(const cases::Simulation& s, const Vec3& x,
+                                                     const Mean& mean) const {
+  const double dx = s.state.air->rows.dx();
+  std::optional<PointReading> rest;  // what the cells in the fluid say
+  if (mean.weight >= nothing) rest = mean.reading;
+  const auto near = walls_ ? walls_->closest(x, *std::rbegin(supports) * dx) : lbm::geometry::Closest{};
+  if (near.triangle < 0) return rest;
+  const Vec3 inward = -walls_->mesh().area_vector(near.triangle).normalized(), way = x - near.point;
+  const double distance = inward.dot(way);
+  const bool on_face = (way - distance * inward).norm() <= 1e-6 * dx;  // else on an edge: no normal leads to the point
+  const bool close = near.distance <= dx;
+  if (distance < -1e-3 * dx) {  // behind the wall; farther from an edge one of its triangles cannot tell
+    if (on_face || close || !s.tree->inside(x)) return std::nullopt;
+    return rest;
   }
-  const Vec3 inward = -walls_->mesh().area_vector(near.triangle).normalized();
-  const double distance = inward.dot(x - near.point);
-  if (distance < -1e-3 * dx) return std::nullopt;  // behind the wall
   const int patch = patch_[near.triangle];
   const auto& boundary = s.state.air->boundaries[patch];
   Vec3 wall = Vec3::Zero();
   if (boundary.profile && s.models.patches[patch].speed)
     wall = s.models.patches[patch].speed(s.state.time) * boundary.profile(near.point);
-  const Mean one = curved_mean(s, near.point + dx * inward), two = curved_mean(s, near.point + 2.0 * dx * inward);
-  const double a = std::max(0.0, distance) / dx;
-  if (one.weight < 0.5) {
-    if (mean.weight < 1e-6) return std::nullopt;
-    return mean.reading;
+  Foot foot{near.point, inward, wall, std::max(0.0, distance)};
+  if (!on_face) {
+    foot.along = way / near.distance;
+    foot.distance = near.distance;
+  }
+  if (const auto reading = on_parabola(s, foot)) return reading;
+  if (!close) return rest;
+  const Mean one = curved_mean(s, near.point + dx * inward);  // beside an opening or a second wall: a straight line
+  if (one.weight < half) {
+    if (rest && on_face && distance <= 1e-6 * dx)
+      rest->velocity = wall;  // a point on the wall, at a corner of an opening's rim
+    return rest;
   }
   PointReading reading;
-  reading.pressure = mean.weight > 1e-6 ? mean.reading.pressure : one.reading.pressure;
-  if (one.weight >= whole && two.weight >= whole) {
-    const Mean three = curved_mean(s, near.point + 3.0 * dx * inward);
+  reading.pressure = mean.weight > nothing ? mean.reading.pressure : one.reading.pressure;
+  reading.velocity = wall + std::max(0.0, distance) / dx * (one.reading.velocity - wall);
+  return reading;
+}
+
+std::optional<PointReading> PointReader::on_parabola(const cases::Simulation& s, const Foot& foot) const {
+  for (const double spacing : supports) {
+    const double h = spacing * s.state.air->rows.dx();
+    const Mean one = curved_mean(s, foot.point + h * foot.along);
+    const Mean two = curved_mean(s, foot.point + 2.0 * h * foot.along);
+    if (std::min(one.weight, two.weight) < whole) continue;
+    const Mean three = curved_mean(s, foot.point + 3.0 * h * foot.along);
+    const double a = foot.distance / h;
     const double p1 = one.reading.pressure, p2 = two.reading.pressure, p3 = three.reading.pressure;
+    PointReading reading;
     reading.pressure = (2.0 - a) * p1 + (a - 1.0) * p2;
     if (three.weight >= whole) reading.pressure += 0.5 * (a - 1.0) * (a - 2.0) * (p1 - 2.0 * p2 + p3);
+    const Vec3 first = one.reading.velocity - foot.velocity, second = two.reading.velocity - foot.velocity;
+    reading.velocity = foot.velocity + a * (2.0 - a) * first + 0.5 * a * (a - 1.0) * second;
+    return reading;
   }
-  const Vec3 first = one.reading.velocity - wall, second = two.reading.velocity - wall;
-  if (one.weight >= whole && two.weight >= whole)
-    reading.velocity = wall + a * (2.0 - a) * first + 0.5 * a * (a - 1.0) * second;
-  else
-    reading.velocity = wall + a * first;
-  return reading;
+  return std::nullopt;
 }
 
 std::vector<std::string> PointReader::check_places(const cases::Simulation& s) const {

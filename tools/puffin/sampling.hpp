@@ -19,11 +19,14 @@ struct PointReading {
 PointReading read_cell(const cases::Simulation& s, std::ptrdiff_t slot);
 
 /// Reads the air at points: a frozen field as it is given; else a parabola along each axis between cell centres; across
-/// a periodic face from the other side. Where some of the eight cells around a point are not fluid and a wall is nearer
-/// than a cell, the velocity follows the parabola through the wall's own velocity and the readings one and two cells
-/// further along the wall's normal (linear where the second is missing): second order up to the wall. The pressure
-/// follows the parabola through the readings one, two and three cells along the normal (a line where the third is
-/// missing). Elsewhere the cells outside the fluid are left out and the rest weighted to 1.
+/// a periodic face from the other side. Where some of the eight cells around a point are not fluid (beside an oblique
+/// wall up to sqrt(3) cells from it) the velocity follows the parabola through the wall's own velocity and the readings
+/// at h and 2h from the wall along its normal, h the least of 1, 1.25, 1.5, 1.75 cells for which both have all of their
+/// eight cells: second order up to the wall. The pressure follows the parabola through the readings at h, 2h and 3h (a
+/// line where the third lacks cells). At an edge that stands out into the fluid the straight line from it to the point
+/// is the normal. Where no h will do, within a cell of the wall: the line through the wall's velocity and the reading
+/// one cell from it, if half of that one's cells are fluid. Elsewhere the cells outside the fluid are left out and the
+/// rest weighted to 1; but a point on a wall has the wall's velocity.
 class PointReader {
  public:
   PointReader() = default;
@@ -40,9 +43,18 @@ class PointReader {
     double weight = 0.0;  // of the fluid among the eight cells
   };
   Mean mean_of_cells(const cases::Simulation& s, const coupling::Vec3& x) const;  // trilinear
-  /// Less the curvature between the cells, half of part (1 - part) of the second difference along each axis: a parabola
-  /// is read as it is. Trilinear where cells are missing.
+  /// Less the curvature between the cells, half of part (1 - part) of the second difference along each axis, around the
+  /// point or up to a cell beside it: a parabola is read as it is. Trilinear where cells are missing.
   Mean curved_mean(const cases::Simulation& s, const coupling::Vec3& x) const;
+  /// Where some of the cells around x, whose weighted reading is `mean`, are missing.
+  std::optional<PointReading> beside_wall(const cases::Simulation& s, const coupling::Vec3& x, const Mean& mean) const;
+  /// The nearest place of a wall to a point, and how the point lies from there.
+  struct Foot {
+    coupling::Vec3 point, along, velocity;  // [m]; towards the point, of length 1; of the wall [m/s]
+    double distance = 0.0;                  // [m]
+  };
+  /// Empty: no pair of support points has all of its cells.
+  std::optional<PointReading> on_parabola(const cases::Simulation& s, const Foot& foot) const;
 
   std::shared_ptr<const lbm::geometry::TriangleTree> walls_;  // the air sticks to these; empty: none
   std::vector<int> patch_;                                    // per triangle of walls_
