@@ -179,6 +179,15 @@ PlaneReading reading_of(const Layer& layer) {
   return r;
 }
 
+/// The pressures on the straight line through those of two layers: at a for part = 0, at b for 1.
+PlaneReading on_line(const Layer& a, const Layer& b, double part) {
+  const PlaneReading at_a = reading_of(a), at_b = reading_of(b);
+  PlaneReading r;
+  r.static_pressure = (1.0 - part) * at_a.static_pressure + part * at_b.static_pressure;
+  r.total_pressure = (1.0 - part) * at_a.total_pressure + part * at_b.total_pressure;
+  return r;
+}
+
 /// Mass flow over the reference density [m^3/s] of one layer of cells: for a domain that has no other.
 double flow_of_cells(const cases::Simulation& s, int axis, int index) {
   double flow = 0.0;
@@ -216,21 +225,24 @@ std::optional<PlaneReading> read_plane(const cases::Simulation& s, int axis, dou
   const auto& rows = s.state.air->rows;
   const double place = (at - rows.origin()[axis]) / rows.dx();
   if (place < -0.5 - 1e-6 || place > rows.box()[axis] - 0.5 + 1e-6) return std::nullopt;
-  const int below = static_cast<int>(std::floor(place));
+  const int below = static_cast<int>(std::floor(place)), layers = rows.box()[axis];
   const double part = place - below;
-  const Layer low = read_layer(s, axis, below), high = read_layer(s, axis, below + 1);
+  const auto index_of = [&](int index) { return rows.periodic()[axis] ? (index + layers) % layers : index; };
+  const auto layer = [&](int index) { return read_layer(s, axis, index_of(index)); };
+  const Layer low = layer(below), high = layer(below + 1);
   if (low.cells == 0 && high.cells == 0) return std::nullopt;
   PlaneReading r;
-  if (low.cells != high.cells) {
-    const bool upper = low.cells == 0 || (high.cells > 0 && part >= 0.5);
-    r = reading_of(upper ? high : low);
+  if (low.cells == high.cells) {
+    r = on_line(low, high, part);
+  } else if (low.cells == 0 || high.cells == 0) {  // at an end: the pressure still has its slope there
+    const Layer& last = low.cells == 0 ? high : low;
+    const Layer before = layer(low.cells == 0 ? below + 2 : below - 1);
+    r = before.cells == last.cells ? on_line(last, before, low.cells == 0 ? part - 1.0 : -part) : reading_of(last);
   } else {
-    const PlaneReading a = reading_of(low), b = reading_of(high);
-    r.static_pressure = (1.0 - part) * a.static_pressure + part * b.static_pressure;
-    r.total_pressure = (1.0 - part) * a.total_pressure + part * b.total_pressure;
+    r = reading_of(part >= 0.5 ? high : low);
   }
   const auto flow = flow_through(s, axis, place);
-  r.flow_rate = flow ? *flow : flow_of_cells(s, axis, low.cells > 0 ? below : below + 1);
+  r.flow_rate = flow ? *flow : flow_of_cells(s, axis, index_of(low.cells > 0 ? below : below + 1));
   return r;
 }
 

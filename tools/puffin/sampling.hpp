@@ -115,9 +115,11 @@ struct Totals {
 /// The same bits for every number of threads.
 Totals read_totals(const cases::Simulation& s);
 
-/// Over the cells that the plane passes through: between the two layers of cells around it where they have as many
-/// cells, else the nearer. The lattice keeps mass, so in steady flow every plane across a channel reads one flow rate.
-/// Empty: the plane meets no fluid.
+/// Over the cells that the plane passes through. Pressures: between the two layers of cells around the plane (across a
+/// periodic face the first and the last) where they have as many cells, else those of the nearer. Before the first and
+/// behind the last layer, as in the plane of an opening: a straight line through the two nearest, where they have as
+/// many cells. The lattice keeps mass, so in steady flow every plane across a channel reads one flow rate. Empty: the
+/// plane meets no fluid.
 std::optional<PlaneReading> read_plane(const cases::Simulation& s, int axis, double at);
 
 }  // namespace puffin::tools
