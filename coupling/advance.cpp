@@ -34,14 +34,15 @@ bool all_asleep(const dem::Carriers& carriers) {
   return std::none_of(carriers.rest.begin(), carriers.rest.end(), [](dem::Rest r) { return r == dem::Rest::awake; });
 }
 
-/// Takes carriers out that have left through an opening. One that has left through a wall is a failure.
-void remove_departed(const Models& models, State& s) {
+/// Takes carriers out that have left through an opening on the way from where they were `before` the interval. One that
+/// has left through a wall stays, wherever it goes: a failure, for Health to find.
+void remove_departed(const Models& models, const std::vector<Vec3>& before, State& s) {
   dem::Carriers& c = s.carriers.carriers;
   std::vector<std::uint8_t> gone;
   std::vector<std::int64_t> emitted;
   for (std::size_t p = 0; p < c.size(); ++p) {
     if (c.rest[p] != dem::Rest::awake) continue;
-    const auto triangle = models.walls->beyond_opening(c.position[p]);
+    const auto triangle = models.walls->left_through(before[p], c.position[p]);
     if (!triangle) continue;
     gone.resize(c.size(), 0);
     gone[p] = 1;
@@ -121,6 +122,7 @@ void find_stencils(const Models& models, const Interval& interval, State& s) {
 /// Carriers and fines over the interval that the air has done.
 void follow_air(const Models& models, const Interval& interval, double until, State& s) {
   s.events.clear();
+  const std::vector<Vec3> before = s.carriers.carriers.position;
   if (s.carriers.carriers.size() > 0) {
     ++s.effort.exchanges;
     if (s.time >= models.carriers_start * (1.0 - 1e-12))
@@ -144,7 +146,7 @@ void follow_air(const Models& models, const Interval& interval, double until, St
   s.time += interval.seconds;
   move_fines(models, interval.steps, interval.seconds, s);
   carry_fines(models, s.time >= until * (1.0 - 1e-12), s);  // the caller reads them at `until`
-  if (s.carriers.carriers.size() > 0) remove_departed(models, s);
+  if (s.carriers.carriers.size() > 0) remove_departed(models, before, s);
 }
 
 /// `until`, or before it the moment at which the carriers are let go.

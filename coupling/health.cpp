@@ -41,7 +41,7 @@ Health::Health(const Models& models, const State& state, const HealthLimits& lim
   const dem::Carriers& c = state.carriers.carriers;
   began_inside_.assign(id_range(c), 0);
   for (std::size_t p = 0; p < c.size(); ++p) {
-    began_inside_[c.id[p]] = models.walls && models.walls->inside(c.position[p]);
+    began_inside_[c.id[p]] = models.walls && models.walls->encloses(c.position[p]);
     fastest_start_ = std::max(fastest_start_, c.velocity[p].norm());
   }
 }
@@ -75,9 +75,11 @@ void Health::check_motion(const State& state) const {
 
 void Health::check_walls(const Models& models, const State& state) const {
   if (!models.walls) return;
+  // Those that left through an opening are no longer there (advance.cpp): who is outside went through a wall, even if
+  // an opening is the nearest surface by now.
   const dem::Carriers& c = state.carriers.carriers;
   for (std::size_t p = 0; p < c.size(); ++p) {
-    if (c.rest[p] != dem::Rest::awake || !began_inside_[c.id[p]] || models.walls->inside(c.position[p])) continue;
+    if (c.rest[p] != dem::Rest::awake || !began_inside_[c.id[p]] || models.walls->encloses(c.position[p])) continue;
     const Vec3& x = c.position[p];
     diverge(
         "carrier %lld is outside the walls, at [%.5g, %.5g, %.5g] m, at t = %.6g s with %.4g m/s. Likely causes: "

@@ -140,7 +140,7 @@ double MeshWalls::clearance(const Vector3d& centre, double limit) const {
   return std::clamp(wall_distance_[node.index] - node.away, 0.0, std::max(limit, 0.0));
 }
 
-bool MeshWalls::enclosed(const Vector3d& point) const {
+bool MeshWalls::encloses(const Vector3d& point) const {
   const Node node = nearest_node(point);
   const float s = signed_clearance_[node.index];
   if (std::abs(s) > node.away) return s > 0.0f;
@@ -149,13 +149,30 @@ bool MeshWalls::enclosed(const Vector3d& point) const {
   return tree_->inside(point);
 }
 
-std::optional<int> MeshWalls::beyond_opening(const Vector3d& point) const {
-  if (enclosed(point)) return std::nullopt;
-  const int nearest = tree_->closest(point).triangle;
-  if (nearest < 0 || !opening_[nearest]) return std::nullopt;
-  return nearest;
+std::optional<int> MeshWalls::left_through(const Vector3d& before, const Vector3d& now) const {
+  if (encloses(now)) return std::nullopt;
+  if (const auto hit = tree_->first_hit(before, now - before, 1.0))
+    return opening_[hit->triangle] ? std::optional(hit->triangle) : std::nullopt;
+  if (!encloses(before)) return std::nullopt;  // it has been outside since it went through a wall
+  return beyond_opening(now);                  // within rounding of the surface
 }
 
-bool MeshWalls::inside(const Vector3d& point) const { return enclosed(point) || beyond_opening(point).has_value(); }
+std::optional<int> MeshWalls::beyond_opening(const Vector3d& point) const {
+  if (encloses(point)) return std::nullopt;
+  const lbm::geometry::Closest nearest = tree_->closest(point);
+  if (nearest.triangle < 0) return std::nullopt;
+  if (opening_[nearest.triangle]) return nearest.triangle;
+  // Beyond an edge both its triangles are equally near, but for the rounding of coordinates as large as the mesh.
+  const double reach = (1.0 + 1e-9) * nearest.distance + 1e-12 * (tree_->max() - tree_->min()).maxCoeff();
+  std::vector<Feature> features;
+  std::vector<NearTriangle> triangles;
+  tree_->near_features(point, reach, nullptr, features, lbm::geometry::Side::both, &triangles);
+  std::optional<int> lowest;
+  for (const NearTriangle& t : triangles)
+    if (opening_[t.triangle] && (!lowest || t.triangle < *lowest)) lowest = t.triangle;
+  return lowest;
+}
+
+bool MeshWalls::inside(const Vector3d& point) const { return encloses(point) || beyond_opening(point).has_value(); }
 
 }  // namespace puffin::coupling

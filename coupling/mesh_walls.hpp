@@ -25,9 +25,16 @@ class MeshWalls : public dem::Walls {
                        std::vector<dem::WallTouch>& touches) const override;
   /// From a grid of distances d_i at nodes x_i: d >= d_i - |centre - x_i|, at the nearest node. Openings do not count.
   double clearance(const Eigen::Vector3d& centre, double limit) const override;
-  /// In the enclosed volume, or outside it with an opening as the nearest surface.
+  /// In the enclosed volume, or beyond_opening().
   bool inside(const Eigen::Vector3d& point) const override;
-  /// The opening triangle that a point outside the enclosed volume lies beyond; nothing if it is inside or in a wall.
+  /// In the enclosed volume.
+  bool encloses(const Eigen::Vector3d& point) const;
+  /// The opening triangle through which the straight way from `before` to `now` leaves the enclosed volume; nothing if
+  /// `now` lies in it, if the way meets a wall first, or if all of it lies outside.
+  std::optional<int> left_through(const Eigen::Vector3d& before, const Eigen::Vector3d& now) const;
+  /// The opening triangle that is the nearest surface of a point outside the enclosed volume, of one at an edge of wall
+  /// and opening the latter. Obliquely behind a hole in a plate the plate is nearer: where the way is known,
+  /// left_through() knows better.
   std::optional<int> beyond_opening(const Eigen::Vector3d& point) const;
 
  private:
@@ -49,7 +56,6 @@ class MeshWalls : public dem::Walls {
   };
   Node nearest_node(const Eigen::Vector3d& p) const;
   Eigen::Vector3d node_at(int i, int j, int k) const;
-  bool enclosed(const Eigen::Vector3d& point) const;
   /// The triangle, where it is nearest to the centre, lies on the plane of one of the touches.
   bool lies_on_a_plane(const lbm::geometry::NearTriangle& t, const Eigen::Vector3d& centre, double reach,
                        const std::vector<dem::WallTouch>& touches) const;

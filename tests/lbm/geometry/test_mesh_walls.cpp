@@ -94,6 +94,33 @@ TEST_F(DuctWalls, InsideMeansInTheDuctOrBeyondAnOpening) {
   EXPECT_FALSE(walls_->beyond_opening({0.0101, 0.002, 0.003}));
 }
 
+// Under the outlet's lower edge and beside the inlet's upper one a wall is as near as the opening.
+TEST_F(DuctWalls, BeyondAnEdgeOfWallAndOpeningIsBeyondTheOpening) {
+  for (const auto& [place, solid] :
+       {std::pair{Vec3(0.0201, 0.0025, -0.0002), "outlet"}, {Vec3(-0.0002, 0.0025, 0.0043), "inlet"}}) {
+    const auto opening = walls_->beyond_opening(place);
+    ASSERT_TRUE(opening) << solid;
+    EXPECT_EQ(tree_->mesh().solids[tree_->mesh().solid[*opening]], solid);
+    EXPECT_TRUE(walls_->inside(place)) << solid;
+    EXPECT_FALSE(walls_->encloses(place)) << solid;
+  }
+}
+
+// The way decides: what it crosses first, not what is nearest to its end.
+TEST_F(DuctWalls, TheWayOutLeadsThroughTheFirstTriangleThatItCrosses) {
+  const Vec3 within(0.0198, 0.0025, 0.0005);
+  const auto outlet = walls_->left_through(within, {0.0203, 0.0025, -0.0002});  // crosses x = 20 mm at z = 0.22 mm
+  ASSERT_TRUE(outlet);
+  EXPECT_EQ(tree_->mesh().solids[tree_->mesh().solid[*outlet]], "outlet");
+  EXPECT_FALSE(walls_->left_through(within, {0.0199, 0.0025, 0.001}));    // still inside
+  EXPECT_FALSE(walls_->left_through(within, {0.0201, 0.0025, -0.0015}));  // z = 0 at x = 19.875 mm: through the floor
+  // Through the floor, and on to where the outlet is nearest.
+  const Vec3 under(0.0199, 0.0025, -0.0001), behind(0.0203, 0.0025, 0.001);
+  EXPECT_FALSE(walls_->left_through(within, under));
+  EXPECT_TRUE(walls_->beyond_opening(behind));
+  EXPECT_FALSE(walls_->left_through({0.0202, 0.0025, -0.0001}, behind));  // outside all the way
+}
+
 TEST_F(DuctWalls, InsideAgreesWithTheWindingNumberEverywhere) {
   std::mt19937 engine(2);
   std::uniform_real_distribution<> x(0.0, 0.02), y(0.0, 0.005), z(-0.001, 0.005);
