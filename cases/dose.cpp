@@ -1,5 +1,6 @@
 #include "cases/dose.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cctype>
 #include <charconv>
@@ -53,13 +54,16 @@ void check(const DoseSpec& s) {
   }
 }
 
-/// Offsets each site by up to `amplitude` in each coordinate. The mapping is our own: the standard leaves that of
+/// Offsets each site by up to `amplitude` along each axis. The mapping is our own: the standard leaves that of
 /// std::uniform_real_distribution to the library.
-void jitter(double amplitude, std::uint64_t seed, std::vector<Vec3>& sites) {
+void jitter(double amplitude, std::uint64_t seed, const Eigen::Matrix3d& axes, std::vector<Vec3>& sites) {
   std::mt19937_64 generator(seed);
   const auto draw = [&generator] { return std::ldexp(static_cast<double>(generator() >> 11), -52) - 1.0; };
-  for (Vec3& site : sites)
-    for (int axis = 0; axis < 3; ++axis) site[axis] += amplitude * draw();
+  for (Vec3& site : sites) {
+    Vec3 offset;
+    for (int axis = 0; axis < 3; ++axis) offset[axis] = amplitude * draw();
+    site += axes * offset;
+  }
 }
 
 /// The numbers of a comma-separated row; empty if a field is no finite number.
@@ -131,6 +135,14 @@ double parcel_diameter(double carrier_diameter, std::int64_t parcel) {
   return carrier_diameter * std::cbrt(static_cast<double>(parcel));
 }
 
+Eigen::Matrix3d axes_on_floor(const Vec3& up) {
+  const Vec3 z = up.normalized(), near = std::abs(z.x()) < 0.9 ? Vec3::UnitX() : Vec3::UnitY();
+  const Vec3 x = (near - near.dot(z) * z).normalized();
+  Eigen::Matrix3d axes;
+  axes << x, z.cross(x), z;
+  return axes;
+}
+
 std::array<std::int64_t, 3> nearest_box(std::int64_t count) {
   const auto side = static_cast<std::int64_t>(std::ceil(std::cbrt(static_cast<double>(count)) - 1e-9));
   std::array<std::int64_t, 3> exact{}, holding{side, side, side};
@@ -154,7 +166,7 @@ Dose place_dose(const DoseSpec& spec, const std::function<bool(const Vec3&)>& in
     read_file(spec, d, dose);
   } else {
     Stack stack = spec.shape == DoseShape::cylinder ? cylinder_stack(spec) : cube_stack(spec);
-    jitter(std::min(spec.jitter * d, stack.free_play), spec.seed, stack.sites);
+    jitter(std::min(spec.jitter * d, stack.free_play), spec.seed, spec.axes, stack.sites);
     dose.positions = std::move(stack.sites);
     dose.radius.assign(dose.positions.size(), 0.5 * d);
     for (std::size_t i = 0; i < spec.sizes.size(); ++i)
@@ -165,11 +177,12 @@ Dose place_dose(const DoseSpec& spec, const std::function<bool(const Vec3&)>& in
     dose.bulk_density = spec.density * std::numbers::pi / 6.0 * cubes / stack.volume;
     shape = stack.shape;
   }
-  double bottom = dose.layers > 0 ? spec.floor.z() : std::numeric_limits<double>::infinity();
+  const Vec3 up = spec.axes.col(2);
+  double bottom = dose.layers > 0 ? up.dot(spec.floor) : std::numeric_limits<double>::infinity();
   double top = -std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < dose.positions.size(); ++i) {
-    if (dose.layers == 0) bottom = std::min(bottom, dose.positions[i].z() - dose.radius[i]);
-    top = std::max(top, dose.positions[i].z() + dose.radius[i]);
+    if (dose.layers == 0) bottom = std::min(bottom, up.dot(dose.positions[i]) - dose.radius[i]);
+    top = std::max(top, up.dot(dose.positions[i]) + dose.radius[i]);
   }
   dose.height = top - bottom;
   require_in_fluid(spec, dose, inside, clearance);

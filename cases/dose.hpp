@@ -27,6 +27,7 @@ struct DoseSpec {
   std::optional<std::array<std::int64_t, 2>> extent_of;  // cube: {carriers, parcel} of the stack whose extent to take
   std::string file;                                      // file: CSV x, y, z[, diameter of the parcel] [m]
   Eigen::Vector3d floor = Eigen::Vector3d::Zero();       // [m] centre of the floor the stack stands on
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();    // columns: two directions along the floor, and up, off it
   double floor_diameter = 0.0;                           // [m] cylinder: its diameter
 };
 
@@ -43,7 +44,11 @@ struct Dose {
 /// than half, else the smallest that holds `count`. nx >= ny >= nz >= 1.
 std::array<std::int64_t, 3> nearest_box(std::int64_t count);
 
-/// Places the dose.
+/// Right-handed axes, as columns: along a floor the x-axis, or the y-axis where x leads off it; square to that; `up`,
+/// off the floor. Those of space where `up` is the z-axis, to the last bit.
+Eigen::Matrix3d axes_on_floor(const Eigen::Vector3d& up);
+
+/// Places the dose. Stacks are built along the floor's axes: height is along `up`.
 /// - cylinder (the thesis, section 3.2.4): layers on a square lattice of pitch (1 + gap) d, the lowest spheres gap d /
 /// 2
 ///   above the floor, all inside a cylinder of `floor_diameter`. Layers are filled until the count is reached; the last
@@ -52,8 +57,8 @@ std::array<std::int64_t, 3> nearest_box(std::int64_t count);
 ///   centres of the stack that n carriers in parcels of p would form, so the pitch is e.g. wider than (1 + gap) d; only
 ///   in height the stack is shifted so that its lowest spheres clear the floor as those would.
 /// - file: centres as listed.
-/// Offsets of jitter come from std::mt19937_64 mapped to [-1, 1) with 53 bits: the same on every machine. They never
-/// make neighbours overlap.
+/// Offsets of jitter, along each axis, come from std::mt19937_64 mapped to [-1, 1) with 53 bits: the same on every
+/// machine. They never make neighbours overlap.
 /// inside: whether a point is in the fluid; clearance: its distance to the nearest wall [m].
 /// Throws std::invalid_argument if the values make no sense, if spheres would overlap, or if one is not wholly in the
 /// fluid; std::runtime_error (naming file and line) if the file cannot be read.

@@ -61,7 +61,7 @@ Stack cylinder_stack(const DoseSpec& spec) {
     const std::size_t site = static_cast<std::size_t>(placed) % layer.size();
     if (site == 0) ++stack.layers;
     stack.sites.push_back(spec.floor +
-                          Vec3(layer[site].x(), layer[site].y(), 0.5 * pitch + (stack.layers - 1) * pitch));
+                          spec.axes * Vec3(layer[site].x(), layer[site].y(), 0.5 * pitch + (stack.layers - 1) * pitch));
   }
   stack.volume = 0.25 * std::numbers::pi * spec.floor_diameter * spec.floor_diameter * stack.layers * pitch;
   stack.shape = "cylinder of " + in_units(spec.floor_diameter, 1e-3, "mm") + ", " + std::to_string(stack.layers) +
@@ -103,8 +103,8 @@ Stack cube_stack(const DoseSpec& spec) {
   for (std::int64_t placed = 0; placed < count; ++placed) {
     const std::size_t site = static_cast<std::size_t>(placed) % layer.size();
     if (site == 0) ++stack.layers;
-    stack.sites.push_back(spec.floor +
-                          Vec3(layer[site].x(), layer[site].y(), floor_gap + 0.5 * d + (stack.layers - 1) * pitch[2]));
+    const double height = floor_gap + 0.5 * d + (stack.layers - 1) * pitch[2];
+    stack.sites.push_back(spec.floor + spec.axes * Vec3(layer[site].x(), layer[site].y(), height));
   }
   stack.volume = 1.0;
   for (int axis = 0; axis < 3; ++axis) stack.volume *= static_cast<double>(box[axis]) * pitch[axis];

@@ -13,7 +13,7 @@ struct Stack {
   std::vector<Eigen::Vector3d> sites;  // [m], layer by layer from the floor up
   int layers = 0;
   double volume = 0.0;     // [m^3] that the stack takes up, half a gap around it included
-  double free_play = 0.0;  // [m] offset in each coordinate that cannot make spheres touch each other or the floor
+  double free_play = 0.0;  // [m] offset along each axis that cannot make spheres touch each other or the floor
   std::string shape;       // "cylinder of 4.5 mm", "10 x 10 x 10 cube"
 };
 

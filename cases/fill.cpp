@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <numbers>
@@ -16,11 +17,65 @@ namespace puffin::cases {
 
 namespace {
 
-/// The lowest part of a patch that faces down (with the carriers' weight): its centre, and the diameter of the circle
-/// of its area, or, where that sticks out of its sides, of the largest around the centre that does not.
+// Cosines of the angle between a face's outward normal and the weight of what lies on it: 8 degrees, within which a
+// floor is level, and 45, within which it is one (less rounding).
+constexpr double level = 0.99, steepest = 0.7071;
+// Angles [rad]: a floor nearer to level than `upright` is built upon upright, as a stack of 2 mm is then wrong by 0.2
+// um at its rim; faces nearer to each other than `one_way` face one way.
+constexpr double upright = 1e-4, one_way = 1e-2;
+
+/// The lowest part of a patch that faces down (with the carriers' weight): its centre, the diameter of the circle of
+/// its area, or, where that sticks out of its sides, of the largest around the centre that does not, and where a stack
+/// on it leads.
 struct Floor {
   Vec3 centre = Vec3::Zero();
   double diameter = 0.0;
+  Vec3 up = Vec3::UnitZ();
+};
+
+/// The triangles of a patch, seen by what falls along `down`.
+class Faces {
+ public:
+  Faces(const Surface& surface, const std::string& patch, const Vec3& down) : mesh_(surface.mesh), down_(down) {
+    const int wanted = surface.patches.find(patch);
+    for (int t = 0; t < static_cast<int>(mesh_.triangles.size()); ++t)
+      if (surface.patches.of_triangle[t] == wanted) all_.push_back(t);
+  }
+  Vec3 outward(int t) const { return mesh_.area_vector(t).normalized(); }
+  /// The lowest of those with a cosine above `cosine` to the weight; -1: none.
+  int lowest(double cosine) const {
+    int found = -1;
+    for (const int t : all_)
+      if (outward(t).dot(down_) > cosine && (found < 0 || depth(t) > depth(found))) found = t;
+    return found;
+  }
+  /// The level ones as deep as `lowest`.
+  std::vector<int> as_deep_as(int lowest) const {
+    const double least = depth(lowest) - tolerance(lowest);
+    return those([&](int t) { return outward(t).dot(down_) > level && !(depth(t) < least); });
+  }
+  /// Those in the plane of `lowest`.
+  std::vector<int> in_plane_of(int lowest) const {
+    const Vec3 normal = outward(lowest);
+    return those([&](int t) {
+      return outward(t).dot(normal) > level &&
+             std::abs(normal.dot(corners(t) - corners(lowest))) / 3.0 <= tolerance(lowest);
+    });
+  }
+
+ private:
+  Vec3 corners(int t) const { return mesh_.corner(t, 0) + mesh_.corner(t, 1) + mesh_.corner(t, 2); }
+  double depth(int t) const { return down_.dot(corners(t)) / 3.0; }
+  double tolerance(int t) const { return 1e-6 + 1e-3 * std::abs(depth(t)); }
+  std::vector<int> those(const auto& wanted) const {
+    std::vector<int> found;
+    std::copy_if(all_.begin(), all_.end(), std::back_inserter(found), wanted);
+    return found;
+  }
+
+  const lbm::geometry::TriangleMesh& mesh_;
+  Vec3 down_;
+  std::vector<int> all_;
 };
 
 /// Distance of a point from the nearest edge that only one of the triangles has.
@@ -53,27 +108,45 @@ bool covers(const lbm::geometry::TriangleMesh& mesh, const std::vector<int>& tri
   });
 }
 
+/// Against the weight; without one, up is the z-axis.
+Vec3 against(const Vec3& gravity) { return gravity.norm() > 0.0 ? Vec3(-gravity.normalized()) : Vec3(Vec3::UnitZ()); }
+
+/// The mean outward normal of triangles.
+Vec3 mean_normal(const lbm::geometry::TriangleMesh& mesh, const std::vector<int>& triangles) {
+  Vec3 sum = Vec3::Zero();
+  for (const int t : triangles) sum += mesh.area_vector(t);
+  return sum.normalized();
+}
+
+/// Level faces come first, whatever slopes there are: those as deep as the lowest, on which a stack stands upright,
+/// also where a round bottom is made of them. If they all slope one way, or there are none, the floor is a plane on
+/// which the stack stands square. Nothing slopes without weight.
 Floor floor_of(const Surface& surface, const std::string& patch, const Vec3& gravity) {
-  const Vec3 down = gravity.norm() > 0.0 ? Vec3(gravity.normalized()) : Vec3(-Vec3::UnitZ());
-  const int wanted = surface.patches.find(patch);
-  const auto faces_down = [&](int t) { return surface.mesh.area_vector(t).normalized().dot(down) > 0.99; };
-  const auto depth = [&](int t) {
-    return down.dot(surface.mesh.corner(t, 0) + surface.mesh.corner(t, 1) + surface.mesh.corner(t, 2)) / 3.0;
-  };
-  double lowest = -1e300;
-  for (int t = 0; t < static_cast<int>(surface.mesh.triangles.size()); ++t)
-    if (surface.patches.of_triangle[t] == wanted && faces_down(t)) lowest = std::max(lowest, depth(t));
-  if (lowest == -1e300)
+  Floor floor;
+  floor.up = against(gravity);
+  const Vec3 down = -floor.up;
+  const Faces faces(surface, patch, down);
+  std::vector<int> of_floor;
+  int lowest = faces.lowest(level);
+  bool slopes = lowest < 0;
+  if (lowest >= 0) {
+    of_floor = faces.as_deep_as(lowest);
+    const Vec3 normal = mean_normal(surface.mesh, of_floor);
+    slopes = normal.cross(down).norm() > upright && std::all_of(of_floor.begin(), of_floor.end(), [&](int t) {
+               return faces.outward(t).cross(normal).norm() < one_way;
+             });
+  }
+  if (slopes && gravity.norm() > 0.0) {
+    if (lowest < 0) lowest = faces.lowest(steepest);
+    if (lowest >= 0) of_floor = faces.in_plane_of(lowest);
+    floor.up = -mean_normal(surface.mesh, of_floor);
+  }
+  if (of_floor.empty())
     throw std::invalid_argument("the patch '" + patch +
                                 "' has no face that carriers can lie on; give a point [x, y, z] instead");
-  Floor floor;
   double area = 0.0;
-  std::vector<int> of_floor;
-  const double tolerance = 1e-6 + 1e-3 * std::abs(lowest);
-  for (int t = 0; t < static_cast<int>(surface.mesh.triangles.size()); ++t) {
-    if (surface.patches.of_triangle[t] != wanted || !faces_down(t) || depth(t) < lowest - tolerance) continue;
+  for (const int t : of_floor) {
     const double a = surface.mesh.area(t);
-    of_floor.push_back(t);
     area += a;
     floor.centre += a / 3.0 * (surface.mesh.corner(t, 0) + surface.mesh.corner(t, 1) + surface.mesh.corner(t, 2));
   }
@@ -111,12 +184,14 @@ Dose dose_of(const Case& described, const Surface& surface, const lbm::geometry:
   spec.seed = described.numerics.seed;
   spec.extent_of = c.fill->extent_of;
   spec.file = c.fill->file;
+  spec.axes = axes_on_floor(against(c.gravity));
   if (c.fill->shape == FillShape::file) {
     spec.floor_diameter = 0.0;
   } else if (const auto* patch = std::get_if<std::string>(&c.fill->at)) {
     const Floor floor = from_file(described, "carriers.fill.at", [&] { return floor_of(surface, *patch, c.gravity); });
     spec.floor = floor.centre;
     spec.floor_diameter = floor.diameter;
+    spec.axes = axes_on_floor(floor.up);
   } else {
     spec.floor = std::get<Vec3>(c.fill->at);
     // A cylinder as high as it is wide, if nothing bounds it.
