@@ -6,6 +6,7 @@
 
 #include "cases/check_boundaries.hpp"
 #include "cases/dose.hpp"
+#include "cases/untagged_openings.hpp"
 
 namespace puffin::cases {
 namespace {
@@ -74,6 +75,9 @@ std::vector<std::string> carrier_place_warnings(const Case& c, const lbm::geomet
       warnings.push_back("carriers meet the moving wall '" + b.patch +
                          "' as one at rest: only the air is dragged along");
   }
+  for (const std::string& name : doubtful_openings(c))
+    warnings.push_back("carriers leave through '" + name +
+                       "': no boundary says what it is; give it type = \"wall\" if it is one");
   if (c.carriers->list.empty()) return warnings;
   const std::vector<ListedCarrier>& list = c.carriers->list;
   const auto radius = [&](std::size_t i) { return 0.5 * parcel_diameter(list[i].diameter, c.carriers->parcel); };

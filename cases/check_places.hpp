@@ -17,8 +17,9 @@ std::vector<Problem> carrier_place_problems(const Case& c, const lbm::geometry::
 /// in: edge of a cell [m], > 0
 std::vector<Problem> output_place_problems(const Case& c, const lbm::geometry::TriangleTree& tree, double dx);
 
-/// Listed carriers that begin deeper in a wall or in each other than a contact goes (10 % of a radius): such an overlap
-/// is taken as the shape and pushes nothing.
+/// Patches that carriers meet otherwise than the air does, or leave through for their tag alone; listed carriers that
+/// begin deeper in a wall or in each other than a contact goes (10 % of a radius): such an overlap is taken as the
+/// shape and pushes nothing.
 std::vector<std::string> carrier_place_warnings(const Case& c, const lbm::geometry::TriangleTree& tree);
 
 }  // namespace puffin::cases

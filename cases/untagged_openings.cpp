@@ -36,6 +36,20 @@ bool is_open_unsaid(const Case& c, const std::string& patch) {
                      [&](const Patch& p) { return p.name == patch; });
 }
 
+std::vector<std::string> doubtful_openings(const Case& c) {
+  std::vector<std::string> names;
+  if (!c.carriers || c.carriers->outside != Outside::remove) return names;
+  for (const Patch& p : c.geometry.patches) {
+    std::string name = p.name;
+    std::transform(name.begin(), name.end(), name.begin(),
+                   [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+    const bool is_called_so = name.starts_with("inlet") || name.starts_with("outlet") || name.starts_with("exit") ||
+                              name.starts_with("mouthpiece");
+    if (!is_called_so && is_open_unsaid(c, p.name)) names.push_back(p.name);
+  }
+  return names;
+}
+
 void refuse_untagged_openings(const Case& c, const lbm::geometry::Patches& patches) {
   if (c.air.model != AirModel::lbm) return;
   std::string text;

@@ -74,6 +74,32 @@ TEST(Places, CarriersAreNoPartOfPeriodicPatchesAndMovingWalls) {
   EXPECT_NE(warnings[1].find("'z-max'"), std::string::npos) << warnings[1];
 }
 
+// Without a lattice a tag makes an opening, also of a floor that was tagged to be looked at.
+TEST(Places, PatchesThatCarriersLeaveThroughForTheirTagAloneAreNamed) {
+  Case c = scene(at("[1e-3, 1e-3, 1e-3]"), "");
+  const auto tree = tree_of(c);
+  for (const char* name : {"floor", "exit-2", "Outlet", "mouthpiece", "inlet_left", "wall"}) {
+    Patch patch;
+    patch.name = name;
+    c.geometry.patches.push_back(patch);
+  }
+  EXPECT_TRUE(carrier_place_warnings(c, tree).empty()) << "on a lattice it is a wall";
+  for (const AirModel model : {AirModel::none, AirModel::frozen}) {
+    c.air.model = model;
+    const auto warnings = carrier_place_warnings(c, tree);
+    ASSERT_EQ(warnings.size(), 1U);
+    EXPECT_EQ(warnings[0],
+              "carriers leave through 'floor': no boundary says what it is; give it type = \"wall\" if it is one");
+  }
+  Case bouncing = c;
+  bouncing.carriers->outside = Outside::bounce;
+  EXPECT_TRUE(carrier_place_warnings(bouncing, tree).empty());
+  Boundary wall;
+  wall.patch = "floor", wall.type = BoundaryType::wall;
+  c.air.boundaries = {wall};
+  EXPECT_TRUE(carrier_place_warnings(c, tree).empty());
+}
+
 TEST(Places, ProbesPlanesSlicesAndBoxesBeyondTheGeometryAreAllNamed) {
   const Case c = scene(at("[1e-3, 1e-3, 1e-3]"), R"toml(
 probe = [{ name = "in", at = [1e-3, 1e-3, 1e-3] }, { name = "out", at = [1e-3, 1e-3, 9e-3] }]
