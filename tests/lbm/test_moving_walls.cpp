@@ -21,7 +21,8 @@ constexpr double speed = 0.02;
 
 /// A box whose z-max slides along x.
 BoxScene cavity(double height, const Vec3& offset = Vec3::Zero()) {
-  const Boundary lid{"", BoundaryKind::wall, [](const Vec3&) { return Vec3(1, 0, 0); }};
+  Boundary lid{"", BoundaryKind::wall, [](const Vec3&) { return Vec3(1, 0, 0); }};
+  lid.slides = true;
   return make_box(Vec3(12, 2, height), 1.0, {wall(), wall(), periodic(), periodic(), wall(), lid}, offset);
 }
 

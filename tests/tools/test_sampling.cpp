@@ -41,6 +41,7 @@ const std::string through = R"toml(
 [[air.boundary]]
 patch = "inlet"
 type = "velocity-inlet"
+profile = "duct"
 velocity = "1 m/s"
 [[air.boundary]]
 patch = "outlet"
@@ -88,7 +89,7 @@ TEST(PointReader, ReadsTheParabolaInAPipeUpToItsWall) {
         ASSERT_TRUE(reading) << r / cell << " cells, " << 3 * direction << " degrees";
         EXPECT_NEAR(reading->velocity[0], speed(x), 0.25 * g * chord * chord + 1e-6)
             << "R = " << cells << ": " << r / cell << " cells, " << 3 * direction << " degrees";
-        EXPECT_NEAR(reading->pressure, pressure(x), 1e-5)  // 1e-6 of differences of 4 Pa
+        EXPECT_NEAR(reading->pressure, pressure(x), 1e-4)  // 1e-6 of differences of 4 Pa, in 25 readings
             << "R = " << cells << ": " << r / cell << " cells, " << 3 * direction << " degrees";
       }
   }

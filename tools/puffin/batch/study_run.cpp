@@ -39,7 +39,6 @@ class Batch {
         options.threads > 0 ? options.threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
     places_ = options.jobs > 0 ? options.jobs : cores_;
   }
-
   int run() {
     try {
       sort_out();
@@ -286,8 +285,7 @@ class Batch {
   int cores_ = 1, places_ = 1;
   std::vector<std::size_t> waiting_;
   std::vector<Running> running_;
-  bool told_ = false;
-  bool incomplete_ = false;  // a case that shares a run has no results
+  bool told_ = false, incomplete_ = false;  // incomplete: a case that shares a run has no results
   double last_live_ = -1e9;
   std::string live_state_ = "running";
 };
