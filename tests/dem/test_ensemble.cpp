@@ -39,15 +39,14 @@ Scene gas(int count, double edge, double speed, double e, bool adhesion, unsigne
 
 /// No contact is in its impact: a bond holds no energy above that of separate carriers.
 bool quiet(const Scene& s) {
-  return std::all_of(s.state.contacts.begin(), s.state.contacts.end(), [](const Contact& c) {
-    return c.phase == ContactPhase::free || c.phase == ContactPhase::bonded;
-  });
+  return std::all_of(s.state.contacts.begin(), s.state.contacts.end(),
+                     [](const Contact& c) { return c.phase == ContactPhase::free || c.phase == ContactPhase::bonded; });
 }
 
 }  // namespace
 
-// Undamped and frictionless: energy is kept, looked at when no spring holds any. Each impact's error is second order, (pi/20)^2/24 = 0.1 %, of either sign;
-// some 20 impacts a carrier average to far less: 0.5 %.
+// Undamped and frictionless: energy is kept, looked at when no spring holds any. Each impact's error is second order,
+// (pi/20)^2/24 = 0.1 %, of either sign; some 20 impacts a carrier average to far less: 0.5 %.
 TEST(Ensemble, ElasticGasKeepsItsEnergy) {
   Scene s = gas(100, 1e-3, 2.0, 1.0, false, 1);
   s.law().friction = ConstantFriction{0.0};
