@@ -153,7 +153,8 @@ void build_carriers(Simulation& s) {
         "carriers.volume_fraction: in frozen air every carrier is dragged as one alone, whatever lies beside it");
   const Numerics& n = s.description.numerics;
   // A frozen field costs nothing to read: the loads are renewed every step.
-  const bool read_anew = s.description.air.model == AirModel::frozen && !s.description.fines;
+  const bool read_anew = s.description.air.model == AirModel::frozen && !s.description.fines &&
+                         s.description.places.of.count("numerics.coupling_interval") == 0;
   m.steps_per_exchange = read_anew ? 1 : n.coupling_interval;
   m.steps_per_exchange_asleep =
       n.skip.resting_exchange ? std::max(m.steps_per_exchange_asleep, n.coupling_interval) : n.coupling_interval;

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "cases/size_distribution.hpp"
+
 namespace puffin::cases {
 
 double TimeTable::at(double t) const {
@@ -112,14 +114,17 @@ double fines_diameter(const Carriers& c, double fines_density) {
 }
 
 double response_time(const Case& c) {
+  constexpr double shortest = 2e-7;  // [s] smaller ones go with the air
   double least = std::numeric_limits<double>::infinity();
   if (c.air.model != AirModel::frozen || !c.carriers) return least;
   const auto take = [&](double diameter, double density) {
     if (diameter > 0.0) least = std::min(least, density * diameter * diameter / (18.0 * c.air.viscosity));
   };
   for (const ListedCarrier& one : c.carriers->list) take(one.diameter, one.density);
-  if (c.carriers->list.empty()) take(c.carriers->diameter, c.carriers->density);
-  return least;
+  if (c.carriers->list.empty())
+    take(c.carriers->sizes ? size_table(*c.carriers->sizes).diameter.front() : c.carriers->diameter,
+         c.carriers->density);
+  return std::max(least, shortest);
 }
 
 }  // namespace puffin::cases

@@ -60,8 +60,8 @@ double dose_mass(const Carriers& c);
 /// Diameter [m] of a fine of mass fine_mass_ratio times the carrier's and of the given density [kg/m^3].
 double fines_diameter(const Carriers& c, double fines_density);
 
-/// The time [s] in which the smallest carrier of a frozen field takes on its speed, rho d^2/(18 mu); infinite without
-/// one.
+/// The time [s] in which the smallest carrier of a frozen field takes on its speed, rho d^2/(18 mu), at least 0.2 us;
+/// infinite without one.
 double response_time(const Case& c);
 
 }  // namespace puffin::cases

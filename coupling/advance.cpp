@@ -125,9 +125,6 @@ void follow_air(const Models& models, const Interval& interval, double until, St
   const std::vector<Vec3> before = s.carriers.carriers.position;
   if (s.carriers.carriers.size() > 0) {
     ++s.effort.exchanges;
-    if (s.time >= models.carriers_start * (1.0 - 1e-12))
-      for (auto& rest : s.carriers.carriers.rest)
-        if (rest == dem::Rest::held) rest = dem::Rest::awake;
     {
       const Stopwatch watch(s.effort.exchange);
       find_loads(models, interval.seconds, s);
@@ -149,16 +146,19 @@ void follow_air(const Models& models, const Interval& interval, double until, St
   if (s.carriers.carriers.size() > 0) remove_departed(models, before, s);
 }
 
-/// `until`, or before it the moment at which the carriers are let go.
-double next_moment(const Models& models, double until, const State& s) {
-  const bool ahead = s.carriers.carriers.size() > 0 && s.time < models.carriers_start * (1.0 - 1e-12);
-  return ahead ? std::min(until, models.carriers_start) : until;
+/// Lets the carriers go when it is time; `until`, or before it that moment.
+double let_go(const Models& models, double until, State& s) {
+  if (s.carriers.carriers.size() == 0) return until;
+  if (s.time < models.carriers_start * (1.0 - 1e-12)) return std::min(until, models.carriers_start);
+  for (auto& rest : s.carriers.carriers.rest)
+    if (rest == dem::Rest::held) rest = dem::Rest::awake;
+  return until;
 }
 
 }  // namespace
 
 void advance(const Models& models, double until, State& s) {
-  until = next_moment(models, until, s);
+  until = let_go(models, until, s);
   const double old_dt = s.scale.dt;
   take_time_step(models, models.time_step.next(s.time, old_dt, s.step_factor), s);
   const Interval interval = interval_until(until, most_steps(models, s), old_dt, s);
@@ -198,7 +198,7 @@ void advance_together(std::span<Companion> all, double until) {
   };
   int most = flow.steps_per_exchange_asleep;
   each([&](const Models& m, State& s) {
-    until = next_moment(m, until, s);
+    until = let_go(m, until, s);
     take_time_step(m, dt, s);
     most = std::min(most, most_steps(m, s));
   });

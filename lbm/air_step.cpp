@@ -142,9 +142,9 @@ class ApplyLinks {
     find_outlet_air(air_, walls_.parity, out[chunk], out[chunk + 1], p_, state);
   }
   /// When the cells beside are collided too. Returns the cells with back-flow.
-  std::int64_t outlets(int chunk, const std::vector<OutletAir>& state, const std::vector<double>& inward) const {
+  std::int64_t outlets(int chunk, const std::vector<OutletAir>& state, const std::vector<double>& heads) const {
     const auto& out = schedule_.outlets;
-    return apply_outlets(air_, drive_, state, inward, walls_.parity, out[chunk], out[chunk + 1], p_);
+    return apply_outlets(air_, drive_, state, heads, walls_.parity, out[chunk], out[chunk + 1], p_);
   }
 
  private:
@@ -216,8 +216,8 @@ void apply_links(const Drive& drive, Air& air) {
         std::vector<std::int64_t> backflow(air.rows.chunks().size(), 0);
         std::vector<OutletAir> state(air.links.outlets.size());
         for_each_chunk(air.rows, [&](int c, const Chunk&) { apply.inlets(c, state); });
-        const std::vector<double> inward = inward_speeds(air, state);
-        for_each_chunk(air.rows, [&](int c, const Chunk&) { backflow[c] = apply.outlets(c, state, inward); });
+        const std::vector<double> heads = entering_heads(air, drive, state);
+        for_each_chunk(air.rows, [&](int c, const Chunk&) { backflow[c] = apply.outlets(c, state, heads); });
         for_each_chunk(air.rows, [&](int c, const Chunk&) { apply.ready_walls(c, -1); });
         for (const std::int64_t cells : backflow) air.backflow += cells;
         end_step(last, p, air);
@@ -249,8 +249,8 @@ KernelReport advance_air(const CollisionConstants& constants, const Drive& drive
         });
         cross_periodic_faces(air.links, last, p);
         if (!state.empty()) {
-          const std::vector<double> inward = inward_speeds(air, state);
-          for_each_in_parts(chunks, [&](int c, int) { backflow[c] = apply.outlets(c, state, inward); });
+          const std::vector<double> heads = entering_heads(air, drive, state);
+          for_each_in_parts(chunks, [&](int c, int) { backflow[c] = apply.outlets(c, state, heads); });
         }
         for_each_in_parts(chunks, [&](int c, int) { apply.late_walls(c, begin_of[c]); });
         end_step(last, p, air);

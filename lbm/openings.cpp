@@ -149,26 +149,37 @@ void find_outlet_air(const Air& air, Parity last, std::size_t first, std::size_t
   }
 }
 
-std::vector<double> inward_speeds(const Air& air, const std::vector<OutletAir>& state) {
-  std::vector<double> flux(air.boundaries.size(), 0.0), area(air.boundaries.size(), 0.0);
+std::vector<double> entering_heads(const Air& air, const Drive& drive, const std::vector<OutletAir>& state) {
+  const std::size_t boundaries = air.boundaries.size();
+  std::vector<double> flux(boundaries, 0.0), leaving(boundaries, 0.0), entering(boundaries, 0.0);
+  const double lowest = lowest_outlet(air, drive);
+  for (std::size_t b = 0; b < boundaries; ++b) {
+    const BoundaryKind kind = air.boundaries[b].kind;
+    if (kind == BoundaryKind::velocity_inlet ||
+        (kind == BoundaryKind::pressure_outlet && drive.density_excess[b] != lowest))
+      return entering;
+  }
   const auto& list = air.links.outlets;
   for (std::size_t k = 0, cell = 0; k < list.size(); ++k) {
     if (list[k].slot != list[cell].slot) cell = k;  // `state` is that of a cell's first link
     if (list[k].direction > 6) continue;
     const auto& ci = d3q19::velocity[list[k].direction];
-    const Vec3 out(ci[0], ci[1], ci[2]), &normal = air.normal[list[k].patch];
-    flux[list[k].patch] -= state[cell].velocity.dot(out);
-    area[list[k].patch] += normal.isZero() ? 1.0 : std::abs(normal.dot(out));
+    const double out = state[cell].velocity.dot(Vec3(ci[0], ci[1], ci[2]));
+    flux[list[k].patch] += out;
+    if (out > 0.0) leaving[list[k].patch] = std::max(leaving[list[k].patch], 1.5 * state[cell].velocity.squaredNorm());
   }
-  for (std::size_t b = 0; b < flux.size(); ++b) flux[b] = area[b] > 0.0 ? std::max(0.0, flux[b] / area[b]) : 0.0;
-  return flux;
+  double most = 0.0;
+  for (std::size_t b = 0; b < boundaries; ++b)
+    if (flux[b] > 0.0) most = std::max(most, leaving[b]);
+  for (std::size_t b = 0; b < boundaries; ++b)
+    if (flux[b] < 0.0) entering[b] = most;
+  return entering;
 }
 
 template <class T>
 std::int64_t apply_outlets(const Air& air, const Drive& drive, const std::vector<OutletAir>& state,
-                           const std::vector<double>& inward, Parity last, std::size_t first, std::size_t end,
+                           const std::vector<double>& heads, Parity last, std::size_t first, std::size_t end,
                            Populations<T>& p) {
-  constexpr double fastest = 2.5;  // of the mean: 2 in a pipe, 2.1 in a square duct
   std::int64_t cut = 0;
   const auto& list = air.links.outlets;
   const double lowest = lowest_outlet(air, drive);
@@ -199,8 +210,7 @@ std::int64_t apply_outlets(const Air& air, const Drive& drive, const std::vector
     } else {
       Vec3 u = state[cell].velocity;
       const double head = 1.5 * u.squaredNorm();  // its dynamic pressure, as an excess of density
-      const double drawn = fastest * inward[static_cast<std::size_t>(link.patch)];
-      const double most = std::max(outside - lowest, 1.5 * drawn * drawn);
+      const double most = std::max(outside - lowest, heads[static_cast<std::size_t>(link.patch)]);
       if (!leaves && head > most) {
         u *= std::sqrt(most / head);
         if (counted != link.slot) ++cut;

@@ -36,9 +36,11 @@ template <class T>
 void find_outlet_air(const Air& air, Parity last, std::size_t first, std::size_t end, const Populations<T>& p,
                      std::vector<OutletAir>& state);
 
-/// Per boundary: the mean speed at which air comes in through a pressure outlet as a whole, in cells a step; zero where
-/// it leaves as a whole.
-std::vector<double> inward_speeds(const Air& air, const std::vector<OutletAir>& state);
+/// Per boundary: the dynamic pressure, as an excess of density, that air may bring in through an outlet that air enters
+/// by as a whole, where nothing but a force or walls move it: no velocity inlet, one pressure at all outlets. It is the
+/// largest that leaves through the others, so that no passage gains by it (in one of equal ends it is what enters).
+/// Elsewhere 0.
+std::vector<double> entering_heads(const Air& air, const Drive& drive, const std::vector<OutletAir>& state);
 
 /// Outlet links [first, end), which divide no cell; `state` of every cell is known. Where the air leaves through a
 /// straight outlet, what comes back is what the cells before the outlet hold, as if the flow went on beyond it with the
@@ -50,13 +52,13 @@ std::vector<double> inward_speeds(const Air& air, const std::vector<OutletAir>& 
 /// Elsewhere, anti-bounce-back (Ginzburg, Verhaeghe & d'Humieres, Commun. Comput. Phys. 3, 427 (2008)):
 ///   f_in = -f_out + 2 w rho_out (1 + 9/2 (c.u)^2 - 3/2 u^2),
 /// u that of the cell; where the air enters, shortened until its dynamic pressure is at most what this outlet lies
-/// above the lowest one, which is all that air at rest could have gained, or to 2.5 of the mean speed `inward` at which
-/// air enters through the outlet as a whole. So air enters at the static pressure asked where pressures, a force or a
-/// sliding wall drive it in, and back-flow at the lowest (or only) outlet, out of which air flows as a whole, is cut:
-/// u = 0. Returns the number of cells whose u was shortened.
+/// above the lowest one, which is all that air at rest could have gained, or that of `heads` (entering_heads). So air
+/// enters at the static pressure asked where pressures, a force or a sliding wall drive it in, and back-flow at the
+/// lowest (or only) outlet, out of which air flows as a whole, is cut: u = 0. Returns the number of cells whose u was
+/// shortened.
 template <class T>
 std::int64_t apply_outlets(const Air& air, const Drive& drive, const std::vector<OutletAir>& state,
-                           const std::vector<double>& inward, Parity last, std::size_t first, std::size_t end,
+                           const std::vector<double>& heads, Parity last, std::size_t first, std::size_t end,
                            Populations<T>& p);
 
 }  // namespace puffin::lbm

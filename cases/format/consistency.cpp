@@ -170,9 +170,10 @@ class Checks {
     elasticity("carriers", c.contact, c.adhesion);
     if (!findings_.broken("carriers.contact.restitution"))
       elasticity("carriers.walls", c.wall_contact, c.wall_adhesion);
-    if (c.contact.max_overlap > 0.2) say("carriers.contact.max_overlap", "must be at most 0.2 of the diameter");
-    if (c.wall_contact.max_overlap > 0.2 && c.contact.max_overlap <= 0.2)
-      say("carriers.walls.max_overlap", "must be at most 0.2 of the diameter");
+    const std::string too_deep = "must be at most 0.2 of the diameter";
+    if (c.contact.max_overlap > 0.2) say("carriers.contact.max_overlap", too_deep);
+    if (c.wall_contact.max_overlap > 0.2 && c.wall_contact.max_overlap != c.contact.max_overlap)
+      say("carriers.walls.contact.max_overlap", too_deep);
     if (c_.fines && !c_.fines->micromodels.empty() && c.fines_each == 0.0)
       say("carriers.fines_each", "[fines] names micro-models, but the carriers carry no fines: give fines_each");
     if (c_.fines && c_.fines->micromodels.empty() && c.fines_each > 0.0)

@@ -125,6 +125,9 @@ TEST(Sizes, ATableIsFollowedAndItsMistakesNameTheLine) {
   std::sort(drawn.begin(), drawn.end());
   EXPECT_NEAR(drawn[500], 60e-6, 0.5e-6);
   EXPECT_NEAR(drawn[250], 50e-6, 0.5e-6);
+  write("50e-6,0.3\n70e-6,1.0\n");  // three of ten are no larger than 50 um: they have that size
+  drawn = draw_diameters(size_table(d), 1000, 3);
+  EXPECT_NEAR(static_cast<double>(std::count(drawn.begin(), drawn.end(), 50e-6)), 300.0, 1.0);
   write("40e-6,0\n30e-6,1\n");
   try {
     size_table(d);

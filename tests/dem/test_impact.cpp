@@ -94,6 +94,41 @@ TEST(Impact, PairReturnsTheRestitutionAskedFor) {
   }
 }
 
+// Without friction and damping the impulse is m v_n along the line of centres at touch, at any angle. A spring turns
+// that line while it acts: glancing_overlap() gives 0.96 and more of the impulse up to b = 0.96 d; with 2 % of overlap
+// it was 0.87, 0.74 at these two.
+TEST(Impact, GlancingPairsPartAsHardSpheres) {
+  for (const double b : {0.5, 0.9, 0.95}) {
+    Scene s;
+    s.law().restitution = 1.0;
+    s.law().friction = ConstantFriction{0.0};
+    s.add(lactose(1, {0, 0, 0}, {1, 0, 0}));
+    s.add(lactose(2, {100e-6, b * 70e-6, 0}, {0, 0, 0}));
+    s.run(120e-6, 1e-6);
+    const double along = std::sqrt(1.0 - b * b);  // v_n; the struck one gets it along (sqrt(1 - b^2), b)
+    EXPECT_NEAR(s.v(1).norm() / along, 1.0, 0.04) << b;
+    EXPECT_NEAR(s.v(0).squaredNorm() + s.v(1).squaredNorm(), 1.0, 0.003) << b;  // (pi/20)^2/12
+    EXPECT_EQ(s.events.ended.size(), 1u) << b;
+  }
+}
+
+// What is pressed beyond the allowed overlap meets a second spring, whose dashpot goes by tangent and secant: a given
+// stiffness of 100 N/m, struck at 10 m/s, is pressed to 0.15 d, half as much again as its knee. 8 % for its shape, that
+// is no power of the overlap; with the dashpot of the tangent alone 0.52 came back of 0.6, now 0.56.
+TEST(Impact, ASpringBeyondItsKneeReturnsTheRestitutionToo) {
+  Scene s;
+  s.law().restitution = 0.6;
+  s.law().friction = ConstantFriction{0.0};
+  s.law().stiffness = 100.0;
+  s.same_walls();
+  s.walls = PlaneWalls::box(1e-3);
+  s.add(lactose(1, {5e-4, 5e-4, 60e-6}, {0, 0, -10}));
+  s.run(60e-6, 1e-7);
+  ASSERT_EQ(s.events.ended.size(), 1u);
+  EXPECT_GT(s.events.ended[0].max_overlap, 0.12 * 70e-6);
+  EXPECT_NEAR(s.v(0).z() / 10.0, 0.6, 0.048);
+}
+
 // The automatic stiffness keeps the overlap within 2 % of the diameter at any speed. 2.5 % safety is built in.
 TEST(Impact, OverlapStaysWithinWhatIsAllowed) {
   for (const double speed : {0.01, 1.0, 40.0}) {

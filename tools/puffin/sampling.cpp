@@ -61,10 +61,11 @@ DropReading DropReader::read(const cases::Simulation& s) const {
   std::vector<char> enters(s.models.patches.size(), 0);
   for (std::size_t b = 0; b < s.models.patches.size(); ++b) {
     const auto& patch = s.models.patches[b];
-    if (patch.is_inlet)  // a plug keeps its speed on the cells of the opening, which may cover more or less than it
+    // A plug keeps its speed on the cells of the opening, which may cover more or less than it.
+    const bool on_cells = s.state.air && !s.models.frozen_air && !s.state.air->boundaries[b].exact_flow;
+    if (patch.is_inlet)
       reading.flow_rate +=
-          patch.speed(s.state.time) *
-          (s.state.air->boundaries[b].exact_flow ? patch.area : s.state.air->links.opening_cells_area[b] * s.dx * s.dx);
+          patch.speed(s.state.time) * (on_cells ? s.state.air->links.opening_cells_area[b] * s.dx * s.dx : patch.area);
     enters[b] = patch.is_inlet ? 1 : 0;
     if (!between_pressures_ || s.state.air->boundaries[b].kind != lbm::BoundaryKind::pressure_outlet) continue;
     const double in = lbm::mass_through(*s.state.air, static_cast<int>(b));

@@ -1,5 +1,7 @@
 // Openings of whole scenes: what passes through planes beside a plug, air that is drawn in, outlets of two faces.
 
+#include <array>
+
 #include "tests/tools/run/air_scene.hpp"
 
 namespace puffin::test {
@@ -73,13 +75,99 @@ plane = [{ name = "middle", normal = "x", at = "3 mm" }]
   EXPECT_NEAR(last(table("force/planes.csv"), "plane", "middle", "flow_rate") / (0.2e-3 * 6.25e-5), 1.0, 0.03);
 }
 
-// Both ends of a T bear one name: half of the air leaves through each, by symmetry to rounding of float populations.
+// Without a lattice an inlet's flow is what its boundary asks for.
+TEST_F(AirScene, AnInletIsReadWithoutALattice) {
+  for (const std::string model : {"none", "frozen"}) {
+    const std::string still = box(model, "1 mm", "1 mm", "1 mm") + "[air]\nmodel = \"" + model + "\"\n" +
+                              (model == "frozen" ? "field = \"uniform\"\nvelocity = [1.0, 0.0, 0.0]\n" : "") +
+                              boundary("x-min", "type = \"velocity-inlet\"\nvelocity = \"2 m/s\"") +
+                              R"toml(
+[carriers]
+list = [{ position = [5e-4, 5e-4, 5e-4], diameter = "70 um", density = "1520 kg/m^3" }]
+[stop]
+time = "0.1 ms"
+)toml";
+    ASSERT_EQ(run(model, still), 0) << text(model + ".log");
+    EXPECT_NEAR(table(model + "/history.csv").numbers("flow_rate").back(), 2e-6, 1e-12) << model;
+  }
+}
+
+// A passage that widens from 1 to 2 mm, 10 Pa: air cannot be faster than without friction and with all of its speed
+// regained, 2 (2 dp/rho)^(1/2) = 8.2 m/s in the narrow part. Brought in with any speed it liked, it reached 400 m/s.
+TEST_F(AirScene, NoPassageGainsBySuckingIn) {
+  for (const std::string pressure : {"0 Pa", "-10 Pa"}) {
+    const std::string wide = R"toml(
+schema = 1
+name = "wide"
+[geometry]
+generator = "step"
+[geometry.step]
+inlet_height = "1 mm"
+step_height = "1 mm"
+width = "0.1 mm"
+inlet_length = "1 mm"
+outlet_length = "6 mm"
+periodic = true
+[air]
+density = 1.2
+viscosity = 2e-6
+initial_velocity = [1.0, 0.0, 0.0]
+boundary = [{ patch = "y-max", type = "periodic", with = "y-min" }, { patch = "inlet", type = "pressure-outlet" },
+)toml" + ("{ patch = \"outlet\", type = \"pressure-outlet\", pressure = \"" + pressure + "\" }]") +
+                             R"toml(
+[numerics]
+dx = "0.1 mm"
+reference_speed = "10 m/s"
+lattice_speed = 0.05
+time_step = "fixed"
+[stop]
+time = "20 ms"
+[output]
+plane = [{ name = "a", normal = "x", at = "0.5 mm" }]
+)toml";
+    ASSERT_EQ(run("wide", wide, "--no-report"), 0) << text("wide.log");
+    const double mean = last(table("wide/planes.csv"), "plane", "a", "flow_rate") / 1e-7;
+    if (pressure == "0 Pa")
+      EXPECT_LT(std::abs(mean), 1.0) << "nothing drives it";
+    else
+      EXPECT_LT(mean, 8.2);
+    std::filesystem::remove_all(folder_ / "wide");
+  }
+}
+
+/// A box [mm] as STL; x-min and x-max are one solid, `ends`.
+std::string box_with_ends(double x, double y, double z) {
+  using Corner = std::array<double, 3>;
+  std::string text;
+  const auto quad = [&](const Corner& a, const Corner& b, const Corner& c, const Corner& d) {  // seen from outside
+    for (const auto& t : {std::array{a, b, c}, std::array{a, c, d}}) {
+      text += "facet normal 0 0 0\nouter loop\n";
+      for (const Corner& v : t)
+        text += "vertex " + std::to_string(v[0]) + " " + std::to_string(v[1]) + " " + std::to_string(v[2]) + "\n";
+      text += "endloop\nendfacet\n";
+    }
+  };
+  text += "solid ends\n";
+  quad({0, 0, 0}, {0, 0, z}, {0, y, z}, {0, y, 0});
+  quad({x, 0, 0}, {x, y, 0}, {x, y, z}, {x, 0, z});
+  text += "endsolid ends\nsolid bottom\n";
+  quad({0, 0, 0}, {0, y, 0}, {x, y, 0}, {x, 0, 0});
+  text += "endsolid bottom\nsolid wall\n";
+  quad({0, 0, z}, {x, 0, z}, {x, y, z}, {0, y, z});
+  quad({0, 0, 0}, {x, 0, 0}, {x, 0, z}, {0, 0, z});
+  quad({0, y, 0}, {0, y, z}, {x, y, z}, {x, y, 0});
+  return text + "endsolid wall\n";
+}
+
+// Both ends of a T are one outlet: half of the air leaves through each, by symmetry to rounding of float populations.
+// Cells at the rim of the inlet bring less, as diagonal links are the walls', and the others more: 1.1 % here.
 TEST_F(AirScene, AnOutletMayHaveTwoOppositeFaces) {
-  const std::string tee =
-      "schema = 1\nname = \"tee\"\n[geometry]\ngenerator = \"box\"\nbox = { x = \"4 mm\", y = \"1 mm\", z "
-      "= \"1 mm\" }\n[[geometry.patch]]\nname = \"ends\"\nselect = \"plane:x-min\"\n"
-      "[[geometry.patch]]\nname = \"ends\"\nselect = \"plane:x-max\"\n" +
-      air + boundary("z-min", "type = \"velocity-inlet\"\nvelocity = \"0.5 m/s\"") + boundary("ends", outlet) + R"toml(
+  std::ofstream(folder_ / "tee.stl") << box_with_ends(4.0, 1.0, 1.0);
+  const std::string tee = "schema = 1\nname = \"tee\"\n[geometry]\nstl = \"" + (folder_ / "tee.stl").string() +
+                          "\"\nunit = \"mm\"\n[[geometry.patch]]\nname = \"ends\"\nselect = \"solid:ends\"\n"
+                          "[[geometry.patch]]\nname = \"bottom\"\nselect = \"solid:bottom\"\n" +
+                          air + boundary("bottom", "type = \"velocity-inlet\"\nvelocity = \"0.5 m/s\"") +
+                          boundary("ends", outlet) + R"toml(
 [numerics]
 dx = "0.125 mm"
 les = "none"
@@ -93,7 +181,7 @@ plane = [{ name = "left", normal = "x", at = "0.5 mm" }, { name = "right", norma
   const double right = last(planes, "plane", "right", "flow_rate"), left = last(planes, "plane", "left", "flow_rate");
   EXPECT_NEAR(right / -left, 1.0, 1e-3);
   EXPECT_NEAR(right / (0.5 * 0.5 * 4e-6 * 0.75), 1.0,
-              0.01);  // less what enters beyond the planes, an eighth at each end
+              0.02);  // less what enters beyond the planes, an eighth at each end
 }
 
 }  // namespace

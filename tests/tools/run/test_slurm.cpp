@@ -65,11 +65,11 @@ TEST_F(SlurmStudy, WhatAnEarlierArrayLeftOutIsSentAfterIt) {
   file("bin/sbatch", "#!/bin/sh\necho 'sbatch: note of the site' >&2\necho 'lua: 3 rules'\necho 78\n");
   file("bin/squeue",
        "#!/bin/sh\ntouch " + (folder_ / "asked").string() + "\necho 'slurm_load: a note'\necho '0 PENDING'\n");
-  const std::string stop =
-      "(while [ ! -e asked ]; do sleep 0.1; done; pkill -INT -f " + (folder_ / "study.toml").string() + ") & ";
-  EXPECT_EQ(shell(stop + "PATH=$PWD/bin:$PATH " + std::string(PUFFIN_BINARY_DIR) + "/puffin batch " +
-                  (folder_ / "study.toml").string() + " --slurm --out out --only a > /dev/null 2>> log.txt"),
-            130)
+  EXPECT_EQ(
+      shell("(PATH=$PWD/bin:$PATH " + std::string(PUFFIN_BINARY_DIR) +
+            "/puffin batch study.toml --slurm --out out --only a > /dev/null 2>> log.txt & for n in $(seq 600); do "
+            "if [ -e asked ]; then break; fi; sleep 0.05; done; kill -TERM $!; wait $!)"),
+      75)
       << text("log.txt");
   EXPECT_EQ(text("out/slurm/array.txt"), "78\n0 a/seed-1\n");
   file("bin/sbatch", sbatch);

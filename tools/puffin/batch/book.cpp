@@ -129,7 +129,7 @@ Book::Book(fs::path folder, const cases::Study& study, const Jobs& plan)
   if (!fs::exists(folder_ / "study.json") && fs::exists(folder_ / "status.json"))
     throw output::OutputError(folder_.string() + " holds a run; choose another folder for the study with --out");
   // Got from elsewhere, the folder may hold links; what is written whole replaces them, but these are written through.
-  for (const char* name : {".lock", "shared/any", "shared/beds/any", "slurm/any"})
+  for (const char* name : {".lock", "shared/any", "shared/beds/any", "slurm/any", "slurm/errors.txt"})
     output::refuse_link_out(folder_, folder_ / name);
   for (std::size_t n = 0; n < plan.jobs.size(); ++n) output::refuse_link_out(folder_, log_file(n));
   lock_ = open((folder_ / ".lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);

@@ -78,10 +78,16 @@ SlurmArray::SlurmArray(const fs::path& study, std::vector<std::string> names)
     : folder_(study / "slurm"), names_(std::move(names)) {
   std::ifstream stream(folder_ / "array.txt");
   stream >> id_;
-  std::string name;
-  for (std::size_t job = 0; stream >> job && std::getline(stream >> std::ws, name);) {
+  std::string line;
+  std::getline(stream, line);
+  while (std::getline(stream, line)) {
+    std::istringstream words(line);
+    std::size_t job = 0;
+    std::string name;
+    if (!(words >> job)) continue;
     open_.push_back(job);
-    same_study_ = same_study_ && job < names_.size() && names_[job] == name;
+    std::getline(words >> std::ws, name);
+    same_study_ = same_study_ && job < names_.size() && (name.empty() || names_[job] == name);
   }
 }
 

@@ -86,7 +86,8 @@ class Batch {
         std::filesystem::create_directories(book_.run_folder(m));
         book_.record(m).threads = threads;
       }
-      if (group.front() == n) tasks.push_back({n, arguments_of(group, threads), book_.log_file(n)});
+      if (std::none_of(tasks.begin(), tasks.end(), [&](const SlurmTask& t) { return group_of(t.job) == group; }))
+        tasks.push_back({n, arguments_of(group, threads), book_.log_file(n)});
     }
     array.submit(study_.file.stem().string(), tasks, threads, options_.jobs);
     watch(array);
