@@ -43,10 +43,7 @@ class Batch {
     try {
       sort_out();
       book_.write();
-      if (options_.slurm)
-        run_with_slurm();
-      else
-        run_here();
+      options_.slurm ? run_with_slurm() : run_here();
       book_.write();
     } catch (const std::exception&) {  // the page must not wait for ever
       live_state_ = "failed";
