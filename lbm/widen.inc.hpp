@@ -108,6 +108,18 @@ template <class T, int N, class From>
   return v;
 }
 
+/// The first `count` of N doubles from memory. The others are not to be used: zero with AVX-512, whose long packs may
+/// reach into cells that another thread writes, else what lies there.
+template <class T, int N>
+[[gnu::always_inline]] inline Lanes<T, N> load_first(const double* p, [[maybe_unused]] int count) {
+#ifdef __AVX512F__
+  const auto mine = static_cast<std::uint32_t>((1ULL << count) - 1U);
+  if constexpr (sizeof(T) == sizeof(double) && N == 8)
+    return reinterpret_cast<Lanes<T, N>>(_mm512_maskz_loadu_pd(static_cast<__mmask8>(mine), p));
+#endif
+  return load_as<T, N>(p);
+}
+
 /// The first `count` of N numbers to memory, rounded where it holds shorter ones.
 template <class T, int N, class To>
 [[gnu::always_inline]] inline void store_first(const Lanes<T, N>& v, int count, To* to) {

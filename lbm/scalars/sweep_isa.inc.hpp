@@ -128,13 +128,13 @@ void update(const SweepRun& run, const SweepScalar<Real>* scalars, int count) {
     const Reals high = run.steps * load<double>(run.mass + n) * read_codes<double>(run.open + n).passes;
     const Reals low =
         run.steps * load<double>(run.mass + n + run.low) * read_codes<double>(run.open + n + run.low).passes;
-    const Reals air = load<double>(run.air + n) + (low - high), per_air = 1.0 / air;
+    const Reals air = load_first<double, lanes>(run.air + n, cells) + (low - high), per_air = 1.0 / air;
     store_first<double, lanes>(air, cells, run.air + n);
     for (int k = 0; k < count; ++k) {
       const SweepScalar<Real>& s = scalars[k];
       const Reals from_low = load<double>(s.out_high + n + run.low) - load<double>(s.out_high + n);
       const Reals from_high = load<double>(s.out_low + n + run.high) - load<double>(s.out_low + n);
-      const Reals now = load<double>(s.amount + n) + (from_low + from_high);
+      const Reals now = load_first<double, lanes>(s.amount + n, cells) + (from_low + from_high);
       store_first<double, lanes>(now, cells, s.amount + n);
       if (s.concentration == nullptr) continue;
       store_first<double, lanes>(per_air * (now > s.resting ? now : Reals{}), cells, s.concentration + n);
@@ -146,9 +146,9 @@ template <class Real>
 void concentrate(int count, const double* air, const SweepScalar<Real>* scalars, int n_scalars) {
   for (int n = 0; n < count; n += lanes) {
     const int cells = cells_of_pack<Reals>(count, n);
-    const Reals per_air = 1.0 / load<double>(air + n);
+    const Reals per_air = 1.0 / load_first<double, lanes>(air + n, cells);
     for (int k = 0; k < n_scalars; ++k) {
-      const Reals amount = load<double>(scalars[k].amount + n);
+      const Reals amount = load_first<double, lanes>(scalars[k].amount + n, cells);
       store_first<double, lanes>(per_air * (amount > scalars[k].resting ? amount : Reals{}), cells,
                                  scalars[k].concentration + n);
     }
