@@ -40,38 +40,24 @@ plane = [{ name = "a", normal = "x", at = "0.5 mm" }, { name = "b", normal = "x"
     EXPECT_NEAR(last(planes, "plane", name, "flow_rate") / 1.8e-5, 1.0, 1e-4) << name;
 }
 
-// A lid between two openings of one pressure draws air in through one of them: u = U z/h everywhere, whatever the
-// length. Where air came in the pressure was less by its momentum, rho u^2, and 18 % of the flow were missing. What is
-// left, 3.1 % here and 3.5 % with half the cell size, is no error of the cells: air enters with the stress of none.
-TEST_F(AirScene, ALidDrawsAirThroughOpeningsOfOnePressure) {
-  const std::string lid = box("lid", "4 mm", "0.0625 mm", "1 mm") + air +
-                          boundary("y-max", "type = \"periodic\"\nwith = \"y-min\"") + boundary("x-min", outlet) +
-                          boundary("x-max", outlet) +
-                          boundary("z-max", "type = \"moving-wall\"\nvelocity = [0.3, 0.0, 0.0]") + numerics +
-                          R"toml(
-[stop]
-time = "60 ms"
-[output]
-plane = [{ name = "middle", normal = "x", at = "2 mm" }]
-)toml";
-  ASSERT_EQ(run("lid", lid), 0) << text("lid.log");
-  EXPECT_NEAR(last(table("lid/planes.csv"), "plane", "middle", "flow_rate") / (0.15e-3 * 6.25e-5), 1.0, 0.05);
+/// Plates 1 mm apart, one cell wide, between two openings of 0 Pa, with more boundaries.
+std::string between_openings(const std::string& name, const std::string& length, const std::string& air_and_more) {
+  return box(name, length, "0.0625 mm", "1 mm") + air + air_and_more +
+         boundary("y-max", "type = \"periodic\"\nwith = \"y-min\"") + boundary("x-min", outlet) +
+         boundary("x-max", outlet) + numerics +
+         "[stop]\ntime = \"60 ms\"\n[output]\nplane = [{ name = \"middle\", normal = \"x\", at = \"2 mm\" }]\n";
 }
 
-// The same with a body force: G h^2/(12 mu) = 0.2 m/s, Re 13. 1.1 % are missing (18 % were).
-TEST_F(AirScene, AForceDrawsAirThroughOpeningsOfOnePressure) {
-  const std::string force = box("force", "6 mm", "0.0625 mm", "1 mm") + air +
-                            "body_force = [43.344, 0.0, 0.0]\nboundary = [\n"
-                            "{ patch = \"y-max\", type = \"periodic\", with = \"y-min\" },\n"
-                            "{ patch = \"x-min\", type = \"pressure-outlet\" }, { patch = \"x-max\", type = "
-                            "\"pressure-outlet\" }]\n" +
-                            numerics + R"toml(
-[stop]
-time = "60 ms"
-[output]
-plane = [{ name = "middle", normal = "x", at = "3 mm" }]
-)toml";
-  ASSERT_EQ(run("force", force), 0) << text("force.log");
+// A lid draws air in through one of the openings: u = U z/h everywhere, whatever the length. The same with a force:
+// G h^2/(12 mu) = 0.2 m/s, Re 13. Where air came in the pressure was less by its momentum, rho u^2, and 18 % of both
+// flows were missing. Of what is left, 3.1 and 1.1 % here, 3.5 and 1.4 % with half the cell size, the cause is not
+// known; 5 and 3 % hold it apart from 18.
+TEST_F(AirScene, ALidAndAForceDrawAirThroughOpeningsOfOnePressure) {
+  const std::string lid = boundary("z-max", "type = \"moving-wall\"\nvelocity = [0.3, 0.0, 0.0]");
+  ASSERT_EQ(run("lid", between_openings("lid", "4 mm", lid)), 0) << text("lid.log");
+  EXPECT_NEAR(last(table("lid/planes.csv"), "plane", "middle", "flow_rate") / (0.15e-3 * 6.25e-5), 1.0, 0.05);
+  ASSERT_EQ(run("force", between_openings("force", "6 mm", "body_force = [43.344, 0.0, 0.0]\n")), 0)
+      << text("force.log");
   EXPECT_NEAR(last(table("force/planes.csv"), "plane", "middle", "flow_rate") / (0.2e-3 * 6.25e-5), 1.0, 0.03);
 }
 
