@@ -164,8 +164,9 @@ TEST(FrozenScenes, P01RelaxesAndP02SpiralsOut) {
   EXPECT_NEAR(std::atan2(r.y(), r.x()), std::remainder(turn * time, 2.0 * M_PI), 0.02);
 }
 
-// The same with 2 um, where a step of five times 10 us is 2.7 response times: r/r0 = exp(2.5696) after 5 ms, but for
-// the 0.4 % that Schiller and Naumann's drag has more than Stokes' at Re 0.02; it was 15.4 with such steps.
+// The same with 2 um, where a step of five times 10 us is 2.7 response times: r/r0 = exp(2.5696) = 13.06 after 5 ms by
+// Stokes; Schiller and Naumann's drag, at Re up to 0.009 up to 0.6 % more, makes it 12.98, these steps 13.01. By the
+// equations of one step of 50 us it was 15.4.
 TEST(FrozenScenes, ALightCarrierSpiralsAsStokesSays) {
   const Outcome p02 = run(
       "p02", {{"air.omega", "5388.158"},

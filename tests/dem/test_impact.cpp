@@ -113,8 +113,8 @@ TEST(Impact, GlancingPairsPartAsHardSpheres) {
 }
 
 // What is pressed beyond the allowed overlap meets a second spring, whose dashpot goes by tangent and secant: a given
-// stiffness of 100 N/m, struck at 10 m/s, is pressed to 0.15 d, half as much again as its knee. 8 % for its shape, that
-// is no power of the overlap; with the dashpot of the tangent alone 0.52 came back of 0.6, now 0.56.
+// stiffness of 100 N/m, struck at 10 m/s, is pressed to 0.15 d, half as much again as its knee. No formula gives what
+// returns, as its shape is no power of the overlap: 8 % lies between 0.56 and the 0.52 of the tangent alone.
 TEST(Impact, ASpringBeyondItsKneeReturnsTheRestitutionToo) {
   Scene s;
   s.law().restitution = 0.6;

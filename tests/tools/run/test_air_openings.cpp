@@ -116,7 +116,7 @@ plane = [{ name = "a", normal = "x", at = "0.5 mm" }]
     if (pressure == "0 Pa")
       EXPECT_LT(std::abs(mean), 1.0) << "nothing drives it";
     else
-      EXPECT_LT(mean, 8.2);
+      EXPECT_TRUE(mean > 0.0 && mean < 8.2) << mean;  // bounded by their difference, not by entering_heads()
     std::filesystem::remove_all(folder_ / "wide");
   }
 }
