@@ -53,9 +53,8 @@ std::vector<double> entering_heads(const Air& air, const Drive& drive, const std
 ///   f_in = -f_out + 2 w rho_out (1 + 9/2 (c.u)^2 - 3/2 u^2),
 /// u that of the cell; where the air enters, shortened until its dynamic pressure is at most what this outlet lies
 /// above the lowest one, which is all that air at rest could have gained, or that of `heads` (entering_heads). So air
-/// enters at the static pressure asked where pressures, a force or a sliding wall drive it in, and back-flow at the
-/// lowest (or only) outlet, out of which air flows as a whole, is cut: u = 0. Returns the number of cells whose u was
-/// shortened.
+/// enters at the static pressure asked where pressures, a force or a sliding wall drive it in, and all other
+/// back-flow at the lowest (or only) outlet is cut: u = 0. Returns the number of cells whose u was shortened.
 template <class T>
 std::int64_t apply_outlets(const Air& air, const Drive& drive, const std::vector<OutletAir>& state,
                            const std::vector<double>& heads, Parity last, std::size_t first, std::size_t end,
