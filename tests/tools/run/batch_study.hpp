@@ -82,7 +82,7 @@ class BatchStudy : public ::testing::Test {
   /// The same, stopped when its run `a` has a checkpoint.
   void stop_at_checkpoint(const std::string& arguments) const {
     shell("(" + std::string(PUFFIN_BINARY_DIR) + "/puffin batch study.toml --out out " + arguments +
-          " > /dev/null 2>> log.txt & for n in $(seq 2000); do if ls out/a/seed-1/checkpoints/* > /dev/null 2>&1; "
+          " > /dev/null 2>> log.txt & for n in $(seq 2000); do if ls out/a/seed-1/checkpoints/*.bin > /dev/null 2>&1; "
           "then break; fi; sleep 0.01; done; kill -TERM $!; wait $!)");
   }
   fs::path folder_;
