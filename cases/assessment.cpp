@@ -13,6 +13,7 @@
 #include "cases/inlet_profile.hpp"
 #include "cases/opening.hpp"
 #include "cases/room.hpp"
+#include "cases/section_speed.hpp"
 #include "cases/undriven_speed.hpp"
 #include "cases/units.hpp"
 #include "cases/untagged_openings.hpp"
@@ -148,10 +149,6 @@ Assessment assess(const Case& given, const Surface& s) {
       if (!estimate.warning.empty()) a.warnings.push_back(estimate.warning);
     }
     if (!(a.reference_speed > 0.0)) throw CaseError({problem_at(c, "numerics.reference_speed", no_speed)});
-    const LatticeSpeed speed = lattice_speed(c, s, a.reference_speed);
-    c.numerics.lattice_speed = speed.value;
-    if (!speed.warning.empty()) a.warnings.push_back(speed.warning);
-    a.lattice = lattice_numbers(c, cell_size(c.numerics, s.volume), a.reference_speed, area_of);
     const std::vector<std::string> openings = openings_of(c);
     geometry::VoxelizeOptions options;
     options.periodic = periodic_directions(c, s);
@@ -159,17 +156,28 @@ Assessment assess(const Case& given, const Surface& s) {
     options.flush = s.marked(slip_patches_of(c));
     const geometry::TriangleTree tree(s.mesh);
     geometry::Pockets dropped;
+    double narrowing = 1.0;
     try {
-      const geometry::Voxels voxels = geometry::voxelize(tree, a.lattice->dx, options, &dropped);
+      const geometry::Voxels voxels = geometry::voxelize(tree, cell_size(c.numerics, s.volume), options, &dropped);
       const geometry::VoxelReport report = geometry::voxel_report(tree, voxels, s.patches, openings, dropped);
       geometry::refuse_buried(report.hidden);
       a.thin_walls = report.hidden.thin;
       a.cells_fluid = static_cast<std::int64_t>(report.cells_fluid);
       a.volume_voxels = report.volume_voxels;
       a.narrowest_gap = report.narrowest_gap;
+      narrowing = section_ratio(c, s, tree, voxels);
     } catch (const std::invalid_argument& e) {
       throw geometry::GeometryError(e.what());
     }
+    if (narrowing > 1.0) a.reference_speed = reference_speed(c, area_of, narrowing);
+    const LatticeSpeed speed = lattice_speed(c, s, a.reference_speed);
+    c.numerics.lattice_speed = speed.value;
+    if (!speed.warning.empty()) a.warnings.push_back(speed.warning);
+    a.lattice = lattice_numbers(c, cell_size(c.numerics, s.volume), a.reference_speed, area_of, narrowing);
+  }
+  if (c.air.model == AirModel::frozen && c.fines) {  // cells without a lattice: the fines are carried through them
+    require_room(c, s, std::numeric_limits<double>::infinity());
+    a.cells_fluid = std::llround(s.volume / std::pow(cell_size(c.numerics, s.volume), 3));
   }
   a.memory = memory_of(c, a, s);
   warn(c, a);

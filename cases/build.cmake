@@ -14,5 +14,6 @@ set(PUFFIN_BUILD_SOURCES
   opening.cpp
   point_field.cpp
   room.cpp
+  section_speed.cpp
   settle.cpp
   undriven_speed.cpp)

@@ -14,6 +14,7 @@
 #include "cases/initial_air.hpp"
 #include "cases/opening.hpp"
 #include "cases/point_field.hpp"
+#include "cases/section_speed.hpp"
 #include "cases/table_file.hpp"
 #include "cases/undriven_speed.hpp"
 #include "cases/untagged_openings.hpp"
@@ -94,7 +95,7 @@ void set_initial_air(Simulation& s) {
       *s.state.air);
 }
 
-void build_lattice(const Case& c, const LatticeNumbers& numbers, Simulation& s) {
+void build_voxels(const Case& c, Simulation& s) {
   geometry::VoxelizeOptions options;
   std::vector<std::string> openings;
   options.periodic = periodic_directions(c, s.surface);
@@ -108,7 +109,9 @@ void build_lattice(const Case& c, const LatticeNumbers& numbers, Simulation& s) 
     throw geometry::GeometryError(e.what());
   }
   geometry::refuse_buried(geometry::hidden_faces(*s.tree, s.voxels, options.openings));
+}
 
+void build_lattice(const Case& c, const LatticeNumbers& numbers, Simulation& s) {
   lbm::LinkGeometry links;
   links.mesh = &s.tree->mesh();
   links.patch_of_triangle = s.surface.patches.of_triangle;
@@ -205,6 +208,7 @@ void build_frozen_cells(Simulation& s) {
   const Case open = with_open_patches(c, s.surface);
   for (std::string& text : closed_ways(open, s.surface, speed, s.models.frozen_air))
     s.warnings.push_back(std::move(text));
+  build_voxels(open, s);
   build_lattice(open, numbers, s);
   const double unit = s.state.scale.dt / s.dx;
   lbm::set_cells(
@@ -271,15 +275,18 @@ void build_air(Simulation& s) {
     if (!estimate.warning.empty()) s.warnings.push_back(estimate.warning);
   }
   if (!(s.reference_speed > 0.0)) throw std::invalid_argument(no_speed);
+  build_voxels(c, s);
+  const double narrowing = c.numerics.reference_speed ? 1.0 : section_ratio(c, s.surface, *s.tree, s.voxels);
+  if (narrowing > 1.0) s.reference_speed = reference_speed(c, area_of, narrowing);
   const LatticeSpeed tamed = lattice_speed(c, s.surface, s.reference_speed);
   if (!tamed.warning.empty()) s.warnings.push_back(tamed.warning);
   Case suited = c;
   suited.numerics.lattice_speed = s.lattice_speed = tamed.value;
-  const LatticeNumbers numbers = lattice_numbers(suited, s.dx, s.reference_speed, area_of);
+  const LatticeNumbers numbers = lattice_numbers(suited, s.dx, s.reference_speed, area_of, narrowing);
   rule.reference_dt = numbers.dt;
-  rule.reference_speed = s.reference_speed;
-  rule.follow = c.numerics.time_step == cases::TimeStepRule::follow_ramp && !c.numerics.reference_speed &&
-                largest_mean_speed(c.air, c.stop.time, area_of) > 0.0;
+  rule.reference_speed = largest_followed_speed(c.air, c.stop.time, area_of);
+  rule.follow =
+      c.numerics.time_step == cases::TimeStepRule::follow_ramp && largest_mean_speed(c.air, c.stop.time, area_of) > 0.0;
   // Areas are sums over thousands of triangles: find them once.
   std::map<std::string, double> areas;
   for (const Boundary& b : c.air.boundaries) areas[b.patch] = s.surface.area_of(b.patch);

@@ -23,7 +23,7 @@ struct LatticeSpeed {
 /// - friction behind its laminar velocity inlets, 8 mu U/D times the wall's area over the inlet's: exact for a pipe
 ///   (Poiseuille), two thirds of it between plates; D = 4 area / edge of the opening beside walls;
 /// - the difference of the pressures at its outlets, where the reference speed U [m/s] makes a laminar flow.
-/// Narrow passages behind a wide inlet are not seen: the run measures its density at the end.
+/// Friction of narrow passages behind a wide inlet is not seen: the run measures its density at the end.
 double expected_pressure_difference(const Case& c, const Surface& surface, double reference_speed);
 
 /// numerics.lattice_speed, lowered until `expected_pressure_difference` changes the density by at most 0.5 % and tau is

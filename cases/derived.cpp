@@ -31,16 +31,32 @@ double mean_speed(const Boundary& b, double t, double area) {
   return 0.0;
 }
 
-double largest_mean_speed(const Air& air, double end, const AreaOf& area_of) {
+namespace {
+
+double ratio_of(const Boundary& b, double section_ratio) {
+  return b.type == BoundaryType::velocity_inlet ? section_ratio : 1.0;
+}
+
+double largest_speed(const Air& air, double end, const AreaOf& area_of, double section_ratio) {
   double largest = 0.0;
   for (const Boundary& b : air.boundaries) {
     const double area = std::holds_alternative<FlowRate>(b.flow) ? area_of(b.patch) : 1.0;
-    largest = std::max({largest, std::abs(mean_speed(b, 0.0, area)), std::abs(mean_speed(b, end, area))});
+    const auto take = [&](double t) {
+      largest = std::max(largest, ratio_of(b, section_ratio) * std::abs(mean_speed(b, t, area)));
+    };
+    take(0.0);
+    take(end);
     if (const auto* rate = std::get_if<FlowRate>(&b.flow))
       for (const double t : rate->table.time)
-        if (t < end) largest = std::max(largest, std::abs(mean_speed(b, t, area)));
+        if (t < end) take(t);
   }
   return largest;
+}
+
+}  // namespace
+
+double largest_mean_speed(const Air& air, double end, const AreaOf& area_of) {
+  return largest_speed(air, end, area_of, 1.0);
 }
 
 double followed_speed(const Air& air, double t, const AreaOf& area_of) {
@@ -52,13 +68,20 @@ double followed_speed(const Air& air, double t, const AreaOf& area_of) {
   return speed;
 }
 
-double reference_speed(const Case& c, const AreaOf& area_of) {
-  if (c.numerics.reference_speed) return *c.numerics.reference_speed;
-  double speed = std::max(largest_mean_speed(c.air, c.stop.time, area_of), c.air.initial_velocity.norm());
+double largest_followed_speed(const Air& air, double end, const AreaOf& area_of) {
+  return std::max(largest_mean_speed(air, end, area_of), air.initial_velocity.norm());
+}
+
+double largest_section_speed(const Case& c, const AreaOf& area_of, double section_ratio) {
+  double speed = std::max(largest_speed(c.air, c.stop.time, area_of, section_ratio), c.air.initial_velocity.norm());
   if (c.air.model == AirModel::frozen)
     if (const auto* uniform = std::get_if<UniformField>(&c.air.frozen))
       speed = std::max(speed, uniform->velocity.norm());
   return speed;
+}
+
+double reference_speed(const Case& c, const AreaOf& area_of, double section_ratio) {
+  return c.numerics.reference_speed.value_or(largest_section_speed(c, area_of, section_ratio));
 }
 
 double cell_size(const Numerics& n, double fluid_volume) {
@@ -67,24 +90,25 @@ double cell_size(const Numerics& n, double fluid_volume) {
   throw std::invalid_argument("the case gives neither numerics.dx nor numerics.cells");
 }
 
-LatticeNumbers lattice_numbers(const Case& c, double dx, double reference, const AreaOf& area_of) {
+LatticeNumbers lattice_numbers(const Case& c, double dx, double reference, const AreaOf& area_of,
+                               double section_ratio) {
   if (!(dx > 0.0) || !(reference > 0.0)) throw std::invalid_argument("cell size and reference speed must be positive");
   LatticeNumbers n;
   n.dx = dx;
-  n.mach = std::sqrt(3.0) * c.numerics.lattice_speed;
   const bool given = c.numerics.time_step == TimeStepRule::given;
   n.dt = n.dt_largest = given ? c.numerics.time_step_seconds : c.numerics.lattice_speed * dx / reference;
-  if (given) n.mach = std::sqrt(3.0) * reference * n.dt / dx;
+  n.mach = std::sqrt(3.0) * std::max(reference, largest_section_speed(c, area_of, section_ratio)) * n.dt / dx;
   n.tau = 0.5 + 3.0 * c.air.viscosity / c.air.density * n.dt / (dx * dx);
   n.steps = c.stop.time / n.dt;
   if (c.numerics.time_step != TimeStepRule::follow_ramp || largest_mean_speed(c.air, c.stop.time, area_of) <= 0.0)
     return n;
+  const double largest = largest_followed_speed(c.air, c.stop.time, area_of);
   constexpr int samples = 2000;  // of the ramp: midpoints, so linear pieces are exact but for the cells with a kink
   n.steps = 0.0;
   for (int i = 0; i < samples; ++i) {
     const double t = (i + 0.5) / samples * c.stop.time;
     const double speed = followed_speed(c.air, t, area_of);
-    const double stretch = std::clamp(reference / std::max(speed, 1e-30), 1.0, 4.0);
+    const double stretch = std::clamp(largest / std::max(speed, 1e-30), 1.0, 4.0);
     n.dt_largest = std::max(n.dt_largest, n.dt * stretch);
     n.steps += c.stop.time / samples / (n.dt * stretch);
   }

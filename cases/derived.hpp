@@ -27,10 +27,15 @@ double largest_mean_speed(const Air& air, double end, const AreaOf& area_of);
 /// What the time step may follow [m/s]: the fastest of inlets and moving walls at time t, and of the air at the start,
 /// as what moves then goes on moving.
 double followed_speed(const Air& air, double t, const AreaOf& area_of);
+/// The largest of it until `end` [s]: where the step is shortest, whatever speed numerics.reference_speed says.
+double largest_followed_speed(const Air& air, double end, const AreaOf& area_of);
 
-/// The speed that `numerics.lattice_speed` stands for: as given, or the largest section-mean speed until stop.time
-/// (boundaries, the frozen or initial velocity). 0 if nothing moves the air.
-double reference_speed(const Case& c, const AreaOf& area_of);
+/// The largest section-mean speed [m/s] until stop.time: inlets times section_ratio (section_speed.hpp), moving walls,
+/// the frozen or initial velocity. 0 if nothing moves the air.
+double largest_section_speed(const Case& c, const AreaOf& area_of, double section_ratio);
+
+/// The speed that `numerics.lattice_speed` stands for: as given, or the largest section-mean speed.
+double reference_speed(const Case& c, const AreaOf& area_of, double section_ratio = 1.0);
 
 /// Cell size [m]: as given, or cbrt(volume / cells). Throws std::invalid_argument if the case gives neither.
 double cell_size(const Numerics& n, double fluid_volume);
@@ -41,12 +46,13 @@ struct LatticeNumbers {
   double dt = 0.0;          // [s], the smallest
   double dt_largest = 0.0;  // [s], with follow-ramp
   double tau = 0.0;         // at dt, the smallest
-  double mach = 0.0;        // lattice Mach number of the reference speed
+  double mach = 0.0;        // lattice Mach number of the largest section-mean speed, at least of the reference speed
   double steps = 0.0;       // until stop.time
 };
-/// With follow-ramp the step grows as 1/U(t), to at most four times the smallest. Throws std::invalid_argument unless
-/// dx and reference_speed are positive.
-LatticeNumbers lattice_numbers(const Case& c, double dx, double reference_speed, const AreaOf& area_of);
+/// With follow-ramp the step grows as U_largest/U(t), to at most four times the smallest. Throws std::invalid_argument
+/// unless dx and reference_speed are positive.
+LatticeNumbers lattice_numbers(const Case& c, double dx, double reference_speed, const AreaOf& area_of,
+                               double section_ratio = 1.0);
 
 /// Re = rho U D / mu.
 double reynolds(const Air& air, double speed, double length);

@@ -6,7 +6,8 @@
 
 namespace puffin::cases {
 
-/// A preset scales the cell size that the case asks for (its case files give the default one) and may shorten the run.
+/// A preset scales the cell size that the case asks for (its case files give the default one), with it a time step in
+/// seconds, and may shorten the run; a pressure window or an average that would begin after that takes its default.
 struct Preset {
   std::string_view name;
   double coarsening;      // of dx; the number of cells goes with its inverse cube

@@ -14,7 +14,7 @@ using SpeedOfTime = std::function<double(double)>;
 struct TimeStepRule {
   bool follow = false;
   double reference_dt = 0.0;     // [s] at the reference speed
-  double reference_speed = 0.0;  // [m/s]
+  double reference_speed = 0.0;  // [m/s] the largest that `speed` takes
   SpeedOfTime speed;             // used if follow
   double window = 0.05;
   double longest = 4.0;

@@ -98,6 +98,20 @@ void apply_override(toml::table& root, const Override& o) {
   }
 }
 
+/// What would begin after the end that a preset sets, takes its default: the last part of the run.
+void forget_later(toml::table& root, double end) {
+  toml::table* output = root["output"].as_table();
+  if (output == nullptr) return;
+  const auto later = [&](toml::node_view<toml::node> value) {
+    const std::optional<double> begin = quantity(value, unit::time);
+    return begin && *begin >= end;
+  };
+  if (later((*output)["pressure_window"][0])) output->erase("pressure_window");
+  if (toml::array* lines = (*output)["line"].as_array())
+    for (toml::node& line : *lines)
+      if (toml::table* table = line.as_table(); table && later((*table)["average_from"])) table->erase("average_from");
+}
+
 void apply_preset(toml::table& root, const Preset& preset) {
   const std::string source = "--preset " + std::string(preset.name);
   const auto replace = [&](const char* table, const char* key, double value) {
@@ -115,13 +129,21 @@ void apply_preset(toml::table& root, const Preset& preset) {
     if (cells && *cells > 0.0 && *cells < 9e15)
       replace("numerics", "cells", std::max(1.0, std::round(*cells / std::pow(preset.coarsening, 3))));
   }
+  const std::optional<double> step = quantity(root["numerics"]["time_step"], unit::time);  // in seconds: goes with dx
+  if (step && *step > 0.0 && std::isfinite(*step)) {
+    const double factor = preset.coarsening * (runs_with_long_steps(root) ? preset.speeding : 1.0);
+    if (factor != 1.0) replace("numerics", "time_step", *step * factor);
+  }
   const auto speed_key = root["numerics"]["lattice_speed"];
   if (preset.speeding != 1.0 && runs_with_long_steps(root) && (!speed_key || speed_key.is_number())) {
     constexpr double largest = 0.15;  // with which the settings below ran in the whole map (cases/stability)
     const double speed = speed_key.value_or(default_lattice_speed);
     if (speed > 0.0) replace("numerics", "lattice_speed", std::min(preset.speeding * speed, std::max(speed, largest)));
   }
-  if (stop && *stop > preset.longest_time) replace("stop", "time", preset.longest_time);
+  if (stop && *stop > preset.longest_time) {
+    replace("stop", "time", preset.longest_time);
+    forget_later(root, preset.longest_time);
+  }
 }
 
 }  // namespace puffin::cases::format

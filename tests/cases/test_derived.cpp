@@ -52,6 +52,17 @@ TEST(Derived, FollowingTheRampSavesSteps) {
   EXPECT_DOUBLE_EQ(n.dt_largest, 4.0 * n.dt);
 }
 
+// Whatever speed the smallest step is sized for: the ratio of the steps is that of the inlet's speeds.
+TEST(Derived, AReferenceSpeedThatIsGivenIsFollowedToo) {
+  Case c = l_bend_flow();
+  const double reference = reference_speed(c, inlet_area);
+  const LatticeNumbers plain = lattice_numbers(c, 2.34e-4, reference, inlet_area);
+  c.numerics.reference_speed = 2.0 * reference;
+  const LatticeNumbers halved = lattice_numbers(c, 2.34e-4, 2.0 * reference, inlet_area);
+  EXPECT_NEAR(halved.steps, 2.0 * plain.steps, 1e-9 * plain.steps);
+  EXPECT_DOUBLE_EQ(halved.dt_largest, 0.5 * plain.dt_largest);
+}
+
 // The ramp is at 0 then: what moves the air is a lid, or air that moved at the start.
 TEST(Derived, TheStepFollowsWhateverMovesTheAir) {
   Case c = l_bend_flow();

@@ -138,6 +138,12 @@ TEST(Presets, ScaleTheGridAndGiveWayToSet) {
   EXPECT_EQ(*longer.numerics.dx, 1e-4);
   EXPECT_EQ(parse(replaced(sample, "10 ms", "1 s"), {}, "quick").stop.time, 0.121);
   EXPECT_THROW(parse(sample, {}, "quickest"), std::invalid_argument);
+  // A step in seconds goes with the cells, so that air crosses as much of one; a window after the new end is forgotten.
+  const Case seconds = parse(replaced(sample, "[numerics]", "[numerics]\ntime_step = \"2e-7 s\""), {}, "accurate");
+  EXPECT_DOUBLE_EQ(seconds.numerics.time_step_seconds, 2e-7 * 2.0 / 3.0);
+  const std::string late = replaced(sample, "10 ms", "1 s") + "\n[output]\npressure_window = [\"0.5 s\", \"1 s\"]\n";
+  EXPECT_FALSE(parse(late, {}, "quick").output.pressure_window);
+  EXPECT_TRUE(parse(late).output.pressure_window);
 }
 
 TEST(Provenance, DistinguishesGivenDefaultDerivedAssumed) {

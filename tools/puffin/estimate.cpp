@@ -29,13 +29,24 @@ int estimate(const CaseArguments& a) {
       !rehearsal.ended && assessment.lattice && c.air.model == cases::AirModel::lbm;
   // How often the rehearsal makes up the run.
   const double rehearsals = rehearsal.ended ? 1.0 : rehearsal.time > 0.0 ? c.stop.time / rehearsal.time : 0.0;
-  const double units = counted ? assessment.lattice->steps : rehearsal.units * rehearsals;
+  const double units = counted ? assessment.lattice->steps / rehearsal.step_factor : rehearsal.units * rehearsals;
   const double steps = counted ? units : static_cast<double>(rehearsal.steps) * rehearsals;
   const Forecast f = forecast(c, rehearsal, units);
   const double mlups = rehearsal.air > 0.0 ? 1e-6 * static_cast<double>(assessment.cells_fluid) / rehearsal.air : 0.0;
+  if (!rehearsal.failure.empty())
+    assessment.warnings.push_back("the rehearsal failed, as a run would (exit code " +
+                                  std::to_string(rehearsal.failure_code) + "): " + rehearsal.failure);
+  else if (rehearsal.step_factor < 1.0)
+    assessment.warnings.push_back("the rehearsal went on with " + four_digits(rehearsal.step_factor) +
+                                  " of the time step after retreats; so would a run, and the steps count it");
+  const int code = rehearsal.failure.empty() ? ok : rehearsal.failure_code;
   if (a.json) {
     nlohmann::json j = assessment_json(c, assessment);
     j["steps"] = std::llround(steps);
+    if (!assessment.lattice && rehearsal.dx > 0.0) {  // cells that carry fines through a frozen field
+      j["dx"] = rehearsal.dx;
+      j["dt_min"] = j["dt_max"] = rehearsal.dt;
+    }
     j["cells_active"] = rehearsal.active;
     j["seconds"] = f.seconds;
     j["seconds_low"] = f.low;
@@ -44,7 +55,7 @@ int estimate(const CaseArguments& a) {
     j["threads"] = rehearsal.threads;
     j["rehearsed_steps"] = rehearsal.steps;
     print(j.dump(2));
-    return ok;
+    return code;
   }
   print_assessment(c, assessment);
   if (mlups > 0.0)
@@ -56,7 +67,7 @@ int estimate(const CaseArguments& a) {
           as_time(rehearsal.time));
   print("time       about " + as_time(f.seconds) + (early ? " to that (" : " to stop.time (") + as_time(f.low) +
         " to " + as_time(f.high) + ")");
-  return ok;
+  return code;
 }
 
 }  // namespace

@@ -17,6 +17,7 @@
 #include "cases/case_error.hpp"
 #include "coupling/air_steps.hpp"
 #include "tools/output/output_folder.hpp"
+#include "tools/puffin/available_memory.hpp"
 #include "tools/puffin/exit_codes.hpp"
 #include "tools/puffin/stepping.hpp"
 #include "tools/puffin/stored_field.hpp"
@@ -86,7 +87,7 @@ double steps_before(const cases::Simulation& s, double part, double end) {
 
 /// As a run builds it; what does not fit together is a mistake of the case.
 std::unique_ptr<cases::Simulation> built(const cases::Case& c) try {
-  return cases::build(c, read_stored_field);
+  return cases::build(c, read_stored_field, available_memory());
 } catch (const std::invalid_argument& e) {
   throw cases::CaseError({{c.name, 0, 0, "", e.what()}});
 }
@@ -117,6 +118,11 @@ Rehearsal rehearse(const cases::Case& c, double seconds) {
   stepping.finish({"stopped", "", stopped});
   r.finish = seconds_since(last);
   r.ended = ending.code == ok;
+  if (!r.ended && ending.code != stopped) {
+    r.failure = ending.message;
+    r.failure_code = ending.code;
+  }
+  r.step_factor = s.state.step_factor;
   r.run_seconds = seconds_since(begin);
   const auto& e = s.state.effort;
   r.time = s.state.time;
@@ -134,6 +140,8 @@ Rehearsal rehearse(const cases::Case& c, double seconds) {
     if (kind.times > 0)
       r.outputs += kind.seconds / static_cast<double>(kind.times) * (1.0 + std::floor(c.stop.time / kind.interval));
   r.at_rest = steps_before(s, 1.0 / 3.0, c.stop.time);
+  if (s.state.air) r.dx = s.dx;
+  r.dt = s.state.scale.dt;
   if (s.state.air) r.active = static_cast<std::int64_t>(s.state.air->rows.active_cells());
   r.memory = peak_memory();
   return r;

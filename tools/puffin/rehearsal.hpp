@@ -2,6 +2,7 @@
 // A few seconds of the very run, to know what the whole will take on this machine.
 
 #include <cstdint>
+#include <string>
 
 #include "cases/case.hpp"
 
@@ -21,10 +22,15 @@ struct Rehearsal {
   double time = 0.0;        // simulated [s]
   double memory = 0.0;      // peak of this process [byte]
   std::int64_t active = 0;  // cells that are computed, those of an immersed boundary's band too
+  double dx = 0.0;          // of the cells [m]; 0: there are none
+  double dt = 0.0;          // the last step [s]
   std::int64_t steps = 0;   // that were rehearsed
   double units = 0.0;       // the same, but 1 where frozen air carries fines alone: all that was rehearsed
   int threads = 0;
-  bool ended = false;  // the rehearsal came to the run's own end: `run_seconds` is what the run takes
+  bool ended = false;        // the rehearsal came to the run's own end: `run_seconds` is what the run takes
+  std::string failure;       // why it could not go on, as a run would say; empty: it could
+  int failure_code = 0;      // with which the run would end
+  double step_factor = 1.0;  // of the time step: below 1 after retreats
   double run_seconds = 0.0;
 };
 
