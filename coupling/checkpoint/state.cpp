@@ -74,9 +74,10 @@ void time_fields(auto& archive, Is<State> auto& state) {
          first_motion, departures, events, stencils, stencils_at, forced, samples, gradients, spreader, impulse_on_air,
          momentum, loads, pores, pressure_forces, release, scalars, budget, fluxes, routes, steps_since_scalars,
          seconds_since_scalars, steps_per_scalar_update, airborne, fines_drift, effort, extremes] = state;
-  archive(time, scale.dt, step_factor, air_mass, inlet_way, collisions, departures, pores.share, stencils_at.position,
-          stencils_at.radius, impulse_on_air, momentum, steps_since_scalars, seconds_since_scalars,
-          steps_per_scalar_update, airborne, fines_drift, effort, extremes);
+  // Of the drive, what the fines read that are carried before the next air step, if the time step changes there.
+  archive(time, scale.dt, step_factor, air_mass, drive.speed, inlet_way, collisions, departures, pores.share,
+          stencils_at.position, stencils_at.radius, impulse_on_air, momentum, steps_since_scalars,
+          seconds_since_scalars, steps_per_scalar_update, airborne, fines_drift, effort, extremes);
 }
 
 /// The lattice belongs to the case; of the air only what moves. What walls keep of their cells they find again from the
@@ -119,6 +120,8 @@ struct Sizes {
     if (!s.carriers.carriers.id.empty() && static_cast<std::size_t>(s.carriers.carriers.id.back()) >= ids) return false;
     for (const auto& drift : s.fines_drift)
       if (!drift.empty() && drift.size() != slots) return false;
+    const std::size_t driven = s.air ? s.air->boundaries.size() : 0, first = s.air && s.air->steps > 0 ? driven : 0;
+    if (s.drive.speed.size() != driven && s.drive.speed.size() != first) return false;
     if (s.stencils_at.position.size() != s.stencils_at.radius.size()) return false;
     if (!s.impulse_on_air.empty() && s.impulse_on_air.size() != s.stencils_at.position.size()) return false;
     return scalars_fit(s);
