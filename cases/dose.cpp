@@ -85,9 +85,9 @@ std::vector<double> numbers_of(const std::string& row) {
 /// Rows x, y, z[, diameter]; empty lines, lines that begin with '#' and one header line are skipped.
 void read_file(const DoseSpec& spec, double default_diameter, Dose& dose) {
   std::error_code error;
-  std::ifstream in(spec.file);
-  if (!in || !std::filesystem::is_regular_file(spec.file, error))
-    throw std::invalid_argument("dose: cannot read " + spec.file + " as a table of positions");
+  const bool regular = std::filesystem::is_regular_file(spec.file, error);  // a pipe would be waited for
+  std::ifstream in(regular ? spec.file : std::string());
+  if (!in || !regular) throw std::invalid_argument("dose: cannot read " + spec.file + " as a table of positions");
   std::string line;
   bool header_allowed = true;
   for (int number = 1; std::getline(in, line); ++number) {

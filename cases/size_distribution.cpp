@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <random>
 #include <sstream>
@@ -42,6 +43,9 @@ struct Curve {
 };
 
 void read_table(const std::string& file, Curve& curve) {
+  std::error_code error;
+  if (std::filesystem::exists(file, error) && !std::filesystem::is_regular_file(file, error))
+    throw std::runtime_error(file + " is not a regular file");  // a pipe would be waited for
   std::ifstream in(file);
   if (!in) throw std::runtime_error("cannot open " + file);
   std::string line;

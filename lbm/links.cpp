@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "lbm/cut_finder.hpp"
+#include "lbm/geometry/surface_check.hpp"
 #include "lbm/link_schedule.hpp"
 #include "lbm/moving_walls.hpp"
 #include "lbm/populations.hpp"
@@ -253,11 +254,11 @@ Links build_links(const Rows& rows, const LinkGeometry& surface, WallScheme sche
       }
     links.opening_cells_area[b] = area;
     if (faces == 0.0)
-      throw std::runtime_error("the opening '" + boundary.patch +
-                               "' touches no cell of the fluid; dx is too large for it");
+      throw geometry::GeometryError("the opening '" + boundary.patch +
+                                    "' touches no cell of the fluid; dx is too large for it");
     if (boundary.kind != BoundaryKind::velocity_inlet) continue;
     if (!(gain > 0.0) || !(speed > 0.0))
-      throw std::runtime_error("the profile of the inlet '" + boundary.patch + "' does not point into the fluid");
+      throw geometry::GeometryError("the profile of the inlet '" + boundary.patch + "' does not point into the fluid");
     // The mean of the profile over the cells is brought to 1, then the links to the flow of all cells at that mean.
     const double scale = (boundary.exact_flow ? patch_area : area) / gain;
     for (auto& link : links.inlets)

@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <unordered_map>
 
+#include "lbm/geometry/surface_check.hpp"
+
 namespace puffin::lbm {
 
 using geometry::Vec3;
@@ -192,7 +194,8 @@ Markers place_markers(const Rows& rows, const WallSides& sides, const LinkGeomet
   std::vector<std::size_t> order;
   for (std::size_t k = 0; k < placed.size(); ++k)
     if (!stencils[k].cells.empty()) order.push_back(k);
-  if (order.empty() && !placed.empty()) throw std::runtime_error("no marker of the walls has a cell; dx is too large");
+  if (order.empty() && !placed.empty())
+    throw geometry::GeometryError("no marker of the walls has a cell; dx is too large");
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return stencils[a].nearest < stencils[b].nearest; });
 

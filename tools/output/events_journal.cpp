@@ -28,6 +28,10 @@ EventsJournal::EventsJournal(fs::path file, std::optional<std::int64_t> keep) : 
   if (keep) {
     std::string found(wanted.size(), ' ');
     std::ifstream(file_, std::ios::binary).read(found.data(), static_cast<std::streamsize>(found.size()));
+    if (!fs::exists(file_))
+      throw OutputError(file_.string() +
+                        ", the record of the contacts so far, is missing, so the run cannot be resumed; "
+                        "start it anew");
     if (found != wanted)
       throw OutputError(file_.string() + " is not of this version, so the run cannot be resumed; start it anew");
     size_ = *keep;

@@ -14,6 +14,8 @@ std::vector<Measurement> read_experiments(const std::filesystem::path& file) {
   const CsvTable table = read_csv(file);
   const int device = table.find("device"), copy = table.find("copy"), test = table.find("test");
   if (device < 0) throw OutputError(file.string() + ":1: experiments need a column 'device'");
+  std::vector<std::vector<double>> values;  // by column
+  for (const std::string& column : table.columns) values.push_back(table.numbers(column));
   std::vector<Measurement> all;
   for (std::size_t r = 0; r < table.rows.size(); ++r) {
     const auto& row = table.rows[r];
@@ -23,7 +25,7 @@ std::vector<Measurement> read_experiments(const std::filesystem::path& file) {
     };
     for (int c = 0; c < static_cast<int>(table.columns.size()); ++c) {
       if (c == device || c == copy || c == test || text(c).empty()) continue;
-      const double value = table.numbers(table.columns[static_cast<std::size_t>(c)])[r];
+      const double value = values[static_cast<std::size_t>(c)][r];
       if (!std::isfinite(value))
         throw OutputError(file.string() + ":" + std::to_string(r + 2) + ": '" + text(c) + "' in column '" +
                           table.columns[static_cast<std::size_t>(c)] +

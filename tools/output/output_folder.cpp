@@ -26,10 +26,11 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Everything a run writes at the top of its folder; nothing else is ever removed.
+/// status.json, by which the folder is known for a run's, goes last: who is killed meanwhile leaves a run's folder.
 constexpr std::array<std::string_view, 19> own_names{
-    "case.toml", "status.json", "log.txt",    "summary.json", "summary.csv",     "index.html", "history.csv",
-    "stats.h5",  "events.h5",   "probes.csv", "lines.csv",    "planes.csv",      "forces.csv", "tracks.csv",
-    "vtk",       "checkpoints", "images",     "report.html",  "micromodels.toml"};
+    "case.toml",   "log.txt",    "summary.json", "summary.csv",      "index.html", "history.csv", "stats.h5",
+    "events.h5",   "probes.csv", "lines.csv",    "planes.csv",       "forces.csv", "tracks.csv",  "vtk",
+    "checkpoints", "images",     "report.html",  "micromodels.toml", "status.json"};
 
 [[noreturn]] void fail(const fs::path& where, const std::string& what, int error) {
   const bool vanished = error == ENOENT && !fs::exists(where.parent_path());

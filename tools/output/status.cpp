@@ -22,7 +22,7 @@ void write_status(const std::filesystem::path& file, const Status& status) {
   Status copy = status;
   fields(copy, JsonWriter{json});
   json["warnings"] = status.warnings;
-  write_whole(file, json.dump(2) + "\n");
+  write_whole(file, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 Status read_status(const std::filesystem::path& file) {

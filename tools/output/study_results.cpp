@@ -182,13 +182,15 @@ const ReferenceValue* StudyCaseResult::given(const std::string& source, const st
   return nullptr;
 }
 
-StudyResults read_study_results(const fs::path& study) {
+StudyResults read_study_results(const fs::path& study) try {
   const Json json = read_json(study / "study.json");
   StudyResults results;
   results.name = fs::path(text(json, "study")).stem().string();
   if (fs::exists(study / "experiments.csv")) results.experiments = read_experiments(study / "experiments.csv");
   for (const Json& c : part(json, "cases")) results.cases.push_back(case_of(c, part(json, "jobs"), study));
   return results;
+} catch (const nlohmann::json::exception& e) {
+  throw OutputError((study / "study.json").string() + " is damaged: " + e.what());
 }
 
 void write_study_tables(const StudyResults& results, const fs::path& study) {

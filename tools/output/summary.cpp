@@ -163,8 +163,12 @@ Json to_json(const Summary& s) {
 
 }  // namespace
 
-std::string summary_json(const Summary& summary) { return to_json(summary).dump(2) + "\n"; }
-std::string fines_json(const std::vector<FinesSummary>& fines) { return written_fines(fines).dump(2) + "\n"; }
+std::string summary_json(const Summary& summary) {
+  return to_json(summary).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+std::string fines_json(const std::vector<FinesSummary>& fines) {
+  return written_fines(fines).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
 
 void write_summary(const std::filesystem::path& file, const Summary& summary) {
   write_whole(file, summary_json(summary));

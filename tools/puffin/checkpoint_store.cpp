@@ -4,6 +4,7 @@
 #include <sstream>
 #include <string_view>
 
+#include "cases/micromodel_file.hpp"
 #include "cases/write_case.hpp"
 #include "coupling/checkpoint/checkpoint.hpp"
 #include "coupling/checkpoint/hash.hpp"
@@ -35,6 +36,31 @@ std::pair<std::string, std::string> first_difference(const std::string& a, const
   }
 }
 
+/// What files say that are read at every start, of a resumed run too. (A dose and the air at the start are in the
+/// checkpoint.)
+void hash_files(const cases::Simulation& s, std::ostream& text) {
+  const cases::Air& air = s.description.air;
+  const auto add = [&](const char* key, const std::string& file) {
+    text << key << " = " << hash_of(output::read_whole(file)) << '\n';
+  };
+  for (const cases::Boundary& b : air.boundaries)
+    if (!b.profile_file.empty()) add("what the file of a profile holds", b.profile_file);
+  if (const auto* force = std::get_if<cases::ForceFile>(&air.body_force))
+    add("what air.body_force.file holds", force->file);
+  if (air.model != cases::AirModel::frozen) return;
+  if (const auto* field = std::get_if<cases::FieldFile>(&air.frozen)) add("what air.field.file holds", field->file);
+  if (!s.stored_field) return;
+  std::uint64_t samples = 0;
+  constexpr int parts = 8;
+  const cases::Vec3 low = s.tree->min(), size = s.tree->max() - low;
+  for (int n = 0; n < parts * parts * parts; ++n) {
+    const cases::Vec3 place(n % parts + 0.5, n / parts % parts + 0.5, n / parts / parts + 0.5);
+    const cases::Vec3 u = s.stored_field(low + size.cwiseProduct(place) / parts);
+    samples = coupling::xxh64(std::as_bytes(std::span(u.data(), 3)), samples);
+  }
+  text << "velocities of air.field.run = " << samples << '\n';
+}
+
 }  // namespace
 
 std::string identity_of(const cases::Simulation& s) {
@@ -56,7 +82,8 @@ std::string identity_of(const cases::Simulation& s) {
   text << "surface = " << surface << '\n';
   text << "lattice = " << coupling::fingerprint(s.state) << '\n';
   if (c.fines && !c.fines->micromodels.empty())
-    text << "micro-models = " << hash_of(output::read_whole(c.fines->micromodels)) << '\n';
+    text << "micro-models = " << hash_of(cases::micromodels_with_tables(c.fines->micromodels)) << '\n';
+  hash_files(s, text);
   return text.str();
 }
 
@@ -87,9 +114,12 @@ void CheckpointStore::require_same_case(const coupling::Checkpoint& checkpoint) 
   coupling::ByteReader(checkpoint.at("case"), "case")(identity);
   if (identity == identity_) return;
   const auto [theirs, ours] = first_difference(identity, identity_);
-  throw coupling::CheckpointForeign("it belongs to another case: there '" + theirs + "', now '" + ours +
-                                    "'; resume with the case file, --preset and --set of the first part, or begin anew "
-                                    "with another --out");
+  const bool follows = theirs.starts_with("statistics = ") || theirs.starts_with("average_from = ");
+  throw coupling::CheckpointForeign(
+      "it belongs to another case: there '" + theirs + "', now '" + ours + "'" +
+      (follows ? " (which follows from stop.time if the case does not give it: set it)" : "") +
+      "; resume with the case file, --preset and --set of the first part, or begin anew "
+      "with another --out");
 }
 
 void CheckpointStore::restore_newest(std::size_t longest, const std::function<void(const coupling::Checkpoint&)>& use) {

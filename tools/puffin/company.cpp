@@ -234,7 +234,6 @@ class Company {
         log_warning(p.name() + ": " + text);
       }
     p.recorder->finish(*p.simulation);
-    if (state == "finished") p.recorder->forget_journal();
     p.progress->update(*p.recorder, warnings, true);
     RunFacts facts;
     facts.state = state;
@@ -248,6 +247,7 @@ class Company {
     summary.assumptions.push_back("carriers: they do not act on the air, whose flow this run shares with others");
     output::write_summary(p.folder->file("summary.json"), summary);
     close_status(*p.folder, state, p.recorder->history(), facts.wall_clock);
+    if (state == "finished") p.recorder->forget_journal();
     if (state == "stopped") return;
     try {
       output::write_whole(p.folder->path() / "report.html", output::make_report(p.folder->path()));

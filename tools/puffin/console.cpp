@@ -4,9 +4,11 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <cerrno>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 
 #include "tools/output/output_error.hpp"
 
@@ -42,9 +44,9 @@ void log_error(const std::string& text) {  // the log says "error" itself
 }
 
 void print(const std::string& text) {
-  std::fwrite(text.data(), 1, text.size(), stdout);
-  std::fputc('\n', stdout);
-  std::fflush(stdout);
+  const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() &&
+                       std::fputc('\n', stdout) != EOF && std::fflush(stdout) == 0;
+  if (!written) throw output::OutputError(std::string("cannot write to stdout: ") + std::strerror(errno));
 }
 
 std::string four_digits(double value) { return fmt::format("{:.4g}", value); }

@@ -9,6 +9,7 @@
 #include "cases/case_error.hpp"
 #include "cases/spelling.hpp"
 #include "lbm/isa.hpp"
+#include "tools/output/output_error.hpp"
 #include "tools/puffin/build_info.hpp"
 #include "tools/puffin/commands.hpp"
 #include "tools/puffin/console.hpp"
@@ -42,7 +43,12 @@ int report(const std::exception& error, bool json) {
     if (!json && !complete) log_error(text);
   }
   const nlohmann::json object{{"ok", false}, {"exit_code", static_cast<int>(code)}, {"problems", problems}};
-  if (json) print(object.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+  if (json) try {
+      print(object.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+    } catch (const output::OutputError& unwritten) {
+      log_error(std::string(error.what()) == unwritten.what() ? error.what()
+                                                              : error.what() + std::string("; ") + unwritten.what());
+    }
   return code;
 }
 

@@ -51,6 +51,7 @@ int run_in(const output::OutputFolder& folder, const RunOptions& options, cases:
   const output::Summary summary = summarize(s, stepping.recorder(), facts);
   output::write_summary(folder.file("summary.json"), summary);
   close_status(folder, facts.state, stepping.recorder().history(), facts.wall_clock);
+  stepping.close(ending);
   if (options.report && ending.code != stopped && ending.code != interrupted)
     make_pictures_and_report(folder.path(), options.quiet);
   if (ending.code == diverged) log_error(ending.message);

@@ -5,6 +5,7 @@
 #include <csignal>
 #include <stdexcept>
 
+#include "coupling/air_steps.hpp"
 #include "dem/failure.hpp"
 #include "tools/puffin/console.hpp"
 #include "tools/puffin/exit_codes.hpp"
@@ -63,8 +64,12 @@ Stepping::Stepping(cases::Simulation& s, const output::OutputFolder& folder, boo
   if (!folder.resumed()) write_checkpoint(good_);
 }
 
-/// Air steps, or steps of the carriers where there is no lattice.
-std::int64_t Stepping::steps() const { return s_.state.air ? s_.state.air->steps : s_.state.carriers.statistics.steps; }
+/// Air steps; steps of the carriers where there are no cells; where cells only carry fines through a frozen field, how
+/// often everything was advanced.
+std::int64_t Stepping::steps() const {
+  if (coupling::computes_air(s_.models, s_.state)) return s_.state.air->steps;
+  return s_.state.air ? advanced_ : s_.state.carriers.statistics.steps;
+}
 
 double Stepping::wall_clock() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 
@@ -75,6 +80,7 @@ void Stepping::step() {
     health_.check(s_.models, s_.state);
     throw;
   }
+  ++advanced_;
   health_.check_impacts(s_.models, s_.state);
   const auto writing = Clock::now();
   recorder_->take_events(s_);
@@ -87,7 +93,8 @@ void Stepping::step() {
 /// Health, memory and checkpoints. All of it at fixed numbers of steps, so that a retreat does not depend on the
 /// clock.
 void Stepping::look_after() {
-  const std::int64_t next = s_.state.air ? s_.models.steps_per_exchange_asleep : 1;  // more than one interval has
+  const bool lattice = coupling::computes_air(s_.models, s_.state);
+  const std::int64_t next = lattice ? s_.models.steps_per_exchange_asleep : 1;  // more than one interval has
   if (!coupling::check_due(steps() - checked_, next)) return;
   health_.check(s_.models, s_.state);
   checked_ = steps();
@@ -206,6 +213,9 @@ void Stepping::finish(const Ending& ending) {
   progress_->update(*recorder_, memory_.warnings, true);
   progress_->finish();
   for (std::size_t n = told; n < memory_.warnings.size(); ++n) log_warning(memory_.warnings[n]);
+}
+
+void Stepping::close(const Ending& ending) {
   if (ending.code == ok && !ending.goes_on) recorder_->forget_journal();
 }
 

@@ -43,6 +43,8 @@ class Stepping {
   Ending run();
   /// Writes what belongs to the end of the outputs.
   void finish(const Ending& ending);
+  /// When summary.json is written: what only a run that goes on needs is removed.
+  void close(const Ending& ending);
 
   const Recorder& recorder() const { return *recorder_; }
   const RunMemory& memory() const { return memory_; }
@@ -75,7 +77,7 @@ class Stepping {
   coupling::Checkpoint before_slow_;  // before the present step, if the one before it took long
   double step_began_ = 0.0;           // [s] of wall_clock()
   double spent_before_ = 0.0;         // [s] of the carriers, before the present step
-  std::int64_t checked_ = 0, remembered_ = 0;
+  std::int64_t checked_ = 0, remembered_ = 0, advanced_ = 0;
   double output_seconds_ = 0.0;
 };
 

@@ -6,6 +6,7 @@
 
 #include "cases/spelling.hpp"
 #include "lbm/geometry/stl.hpp"
+#include "tools/output/output_folder.hpp"
 #include "tools/output/vtk_series.hpp"
 #include "tools/puffin/arguments.hpp"
 #include "tools/puffin/commands.hpp"
@@ -94,7 +95,8 @@ int voxelize(const VoxelizeArguments& a) {
     if (!f.repairs.empty())
       geometry::write_stl((folder / "repaired.stl").string(), mesh, mesh.solids.size() == 1, unit);
     write_picture(f, mesh, patches, openings, folder / "report.png");
-    std::ofstream(folder / "report.json") << to_json(f).dump(2) << '\n';
+    output::write_whole(folder / "report.json",
+                        to_json(f).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
   }
   std::string fatal = f.fatal();
   if (!sound && !a.repair) fatal += "\n--repair mends what can be mended without guessing";

@@ -145,13 +145,17 @@ Book::Book(fs::path folder, const cases::Study& study, const Jobs& plan)
   }
   const Json before = Json::parse(output::read_whole(folder_ / "study.json"), nullptr, false);
   if (!before.is_object() || !before.contains("jobs")) return;
-  for (const Json& j : before["jobs"])
-    for (std::size_t n = 0; n < records_.size(); ++n)
-      if (plan.jobs[n].id == j.value("id", "")) {
-        records_[n] = {state_of(j.value("state", "")), j.value("exit_code", 0), j.value("message", ""),
-                       j.value("seconds", 0.0),        j.value("attempts", 0),  j.value("threads", 0)};
-        if (records_[n].state == JobState::running) records_[n].state = JobState::stopped;  // that batch was killed
-      }
+  for (const Json& j : before["jobs"]) try {
+      for (std::size_t n = 0; n < records_.size(); ++n)
+        if (plan.jobs[n].id == j.value("id", "")) {
+          records_[n] = {state_of(j.value("state", "")), j.value("exit_code", 0), j.value("message", ""),
+                         j.value("seconds", 0.0),        j.value("attempts", 0),  j.value("threads", 0)};
+          if (records_[n].state == JobState::running) records_[n].state = JobState::stopped;  // that batch was killed
+        }
+    } catch (const nlohmann::json::exception& e) {
+      throw output::OutputError((folder_ / "study.json").string() + " is damaged: " + e.what() +
+                                "; remove it, and what is finished is found by its folder");
+    }
 }
 
 Book::~Book() {

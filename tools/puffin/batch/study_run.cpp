@@ -231,7 +231,7 @@ class Batch {
       incomplete_ = !complete(n, study_, plan_, book_) || incomplete_;
       if (options_.slurm) r.seconds = output::read_summary(book_.run_folder(n) / "summary.json").wall_clock;
       if (!options_.quiet) log_info(plan_.jobs[n].id + ": done in " + as_time(r.seconds));
-    } else if (code == stopped || code == interrupted || (told_ && code == killed_by + SIGTERM)) {
+    } else if (code == stopped || code == interrupted || ((told_ || options_.slurm) && code == killed_by + SIGTERM)) {
       r.state = JobState::stopped;
       log_warning(plan_.jobs[n].id + ": stopped; the same command goes on with it");
     } else {
