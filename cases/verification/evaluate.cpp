@@ -197,6 +197,19 @@ double distance(const Check& check, double value, double reference) {
 
 }  // namespace
 
+void add_first_columns(Table& table, const std::string& key) {
+  const auto keys = table.numbers.find(key);
+  if (keys == table.numbers.end()) return;
+  std::map<double, std::size_t> begins;
+  std::vector<std::size_t> first;
+  for (std::size_t row = 0; row < keys->second.size(); ++row)
+    first.push_back(begins.emplace(keys->second[row], row).first->second);
+  std::map<std::string, std::vector<double>> added;
+  for (const auto& [name, column] : table.numbers)
+    for (const std::size_t row : first) added["first_" + name].push_back(column[row]);
+  table.numbers.merge(added);
+}
+
 double evaluate(const Verification& v, const Reading& reading, const VerificationRun& run, const RunOutput& output) {
   const Known known = known_of(v, run, output);
   if (reading.output == "fields") return reduce_fields(reading, output, known);

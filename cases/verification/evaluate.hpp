@@ -17,6 +17,10 @@ struct Table {
   std::size_t rows() const { return numbers.empty() ? 0 : numbers.begin()->second.size(); }
 };
 
+/// Adds, for each column NAME of numbers, a column "first_NAME": what the first row with the same number in `key`
+/// holds. So a row of tracks.csv knows how its carrier began. No column `key`: nothing is added.
+void add_first_columns(Table& table, const std::string& key);
+
 /// What the runs left behind, as the evaluation asks for it.
 struct RunOutput {
   /// The whole numbers of summary.json by their dotted keys, "dx", "pressure.static_drop.mean".

@@ -70,7 +70,9 @@ class Parser {
 
   void comparison() {
     sum();
-    constexpr std::array<NamedBinary, 4> signs{{{"<=", [](double a, double b) { return a <= b ? 1.0 : 0.0; }},
+    constexpr std::array<NamedBinary, 6> signs{{{"==", [](double a, double b) { return a == b ? 1.0 : 0.0; }},
+                                                {"!=", [](double a, double b) { return a != b ? 1.0 : 0.0; }},
+                                                {"<=", [](double a, double b) { return a <= b ? 1.0 : 0.0; }},
                                                 {">=", [](double a, double b) { return a >= b ? 1.0 : 0.0; }},
                                                 {"<", [](double a, double b) { return a < b ? 1.0 : 0.0; }},
                                                 {">", [](double a, double b) { return a > b ? 1.0 : 0.0; }}}};

@@ -9,9 +9,9 @@
 
 namespace puffin::cases {
 
-/// A formula of named numbers. Operators, from loosest to tightest: < <= > >= (1 or 0), + -, * /, unary -, ^ (from the
-/// right: 2^3^2 = 512, -2^2 = -4). Functions: sqrt exp log sin cos tan sinh cosh tanh atan abs, and of two arguments
-/// min max atan2. `pi` is known. Names hold letters, digits, '_' and '.', and begin with a letter.
+/// A formula of named numbers. Operators, from loosest to tightest: == != < <= > >= (1 or 0), + -, * /, unary -, ^
+/// (from the right: 2^3^2 = 512, -2^2 = -4). Functions: sqrt exp log sin cos tan sinh cosh tanh atan abs, and of two
+/// arguments min max atan2. `pi` is known. Names hold letters, digits, '_' and '.', and begin with a letter.
 class Formula {
  public:
   /// Throws std::invalid_argument with the column and what was expected there.

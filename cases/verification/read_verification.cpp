@@ -104,6 +104,7 @@ void describe(Fields& io, VerificationRun& run, const std::filesystem::path& fol
   if (run.name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_") !=
       std::string::npos)
     io.problem("name", "a run's name holds letters, digits and '_' only");
+  io.text("label", run.label, otherwise(run.name));
   std::string file = (folder / "case.toml").string();
   if (io.has("case", false)) io.file("case", file, {});
   run.case_file = file;
@@ -151,7 +152,14 @@ void describe(Fields& io, Reading& r) {
   if (r.exact && r.against) io.problem("exact", "give 'exact' or 'against', not both");
 }
 
-void describe(Fields& io, Check& c, const Verification& v) {
+/// A check as the file has it: `runs` makes one line of the results for each.
+struct CheckOfRuns {
+  Check check;
+  std::vector<std::string> runs;
+};
+
+void describe(Fields& io, CheckOfRuns& many, const Verification& v) {
+  Check& c = many.check;
   io.text("quantity", c.quantity, required);
   c.result = formula(io, "result", true);
   std::vector<std::string> names;
@@ -162,15 +170,31 @@ void describe(Fields& io, Check& c, const Verification& v) {
   };
   io.text("run", c.run, otherwise(names.empty() ? std::string() : names.back()));
   known("run", c.run);
+  io.texts("runs", many.runs, otherwise(many.runs));
+  for (const std::string& run : many.runs) known("runs", run);
   io.texts("order_over", c.order_over, otherwise(c.order_over));
   for (const std::string& run : c.order_over) known("order_over", run);
   if (c.order_over.size() == 1) io.problem("order_over", "an order needs at least two runs");
+  if (!many.runs.empty() && (io.has("run", false) || !c.order_over.empty()))
+    io.problem("runs", "a check has one of 'run', 'runs' and 'order_over'");
   c.reference = formula(io, "reference", true);
   io.number("tolerance", c.tolerance, unit::number, Range::non_negative, required);
   c.measure = static_cast<Measure>(io.pick("measure", measures, 0, required));
   c.bound = static_cast<Bound>(io.pick("bound", bounds, 0, otherwise(0)));
   io.text("reason", c.reason, required);
   io.text("source", c.source, otherwise(v.source));
+}
+
+/// The check itself, or one of each of its runs: "QUANTITY, LABEL OF THE RUN".
+void append(std::vector<Check>& checks, const CheckOfRuns& many, const std::vector<VerificationRun>& runs) {
+  if (many.runs.empty()) checks.push_back(many.check);
+  for (const std::string& name : many.runs)
+    for (const VerificationRun& run : runs) {
+      if (run.name != name) continue;
+      checks.push_back(many.check);
+      checks.back().run = name;
+      checks.back().quantity += ", " + run.label;
+    }
 }
 
 void describe(Fields& io, Verification& v) {
@@ -182,7 +206,9 @@ void describe(Fields& io, Verification& v) {
   io.list("run", v.runs, [&](Fields& f, VerificationRun& run) { describe(f, run, v.folder); });
   if (v.runs.empty()) io.problem("run", "at least one [[run]] is needed");
   io.list("reading", v.readings, [](Fields& f, Reading& r) { describe(f, r); });
-  io.list("check", v.checks, [&](Fields& f, Check& c) { describe(f, c, v); });
+  std::vector<CheckOfRuns> checks;
+  io.list("check", checks, [&](Fields& f, CheckOfRuns& c) { describe(f, c, v); });
+  for (const CheckOfRuns& many : checks) append(v.checks, many, v.runs);
   if (v.checks.empty()) io.problem("check", "at least one [[check]] is needed");
 }
 

@@ -24,6 +24,7 @@ struct Constant {
 /// One run of a case file with its variations.
 struct VerificationRun {
   std::string name;
+  std::string label;  // for people, in the lines of checks that are made of several runs; the name if not given
   std::filesystem::path case_file;
   std::vector<Override> sets;
   std::vector<Constant> constants;  // over those of the whole file

@@ -80,6 +80,21 @@ TEST(Verify, WallOffByThreeTenthsOfACellIsOutOfTolerance) {
   EXPECT_TRUE(found);
 }
 
+// Adhesion times 1.3, friction times 1.2, restitution 0.05 too high, a modulus 5 % too high: each turns its benchmark
+// red.
+TEST(Verify, FaultsOfContactsAndAdhesionAreOutOfTolerance) {
+  for (const std::string fault :
+       {"D02 --set carriers.contact.youngs_modulus=4.2e10", "D05 --set carriers.contact.friction=0.36",
+        "D06 --set carriers.contact.restitution=0.55", "D09 --set carriers.contact.friction=0.12",
+        "D10 --set carriers.adhesion.surface_energy=4.68e-3", "D11 --set carriers.adhesion.surface_energy=4.68e-3",
+        "D12 --set carriers.adhesion.surface_energy=4.68e-3"}) {
+    const Result result = puffin("verify --quick --json --only " + fault);
+    EXPECT_EQ(result.code, 9) << fault << result.out;
+    for (const auto& row : nlohmann::json::parse(result.out)["cases"])
+      EXPECT_TRUE(row["value"].is_number()) << fault << ": the run is to end, and to be wrong\n" << row;
+  }
+}
+
 TEST(Verify, UnknownNamesAreUsageErrorsAndFailedRunsAreFailures) {
   EXPECT_EQ(puffin("verify --suite flows").code, 2);
   EXPECT_EQ(puffin("verify --only V99").code, 2);

@@ -95,7 +95,9 @@ Table field_table(const std::filesystem::path& file, double time) {
 Table read_table(const std::filesystem::path& folder, const std::string& name) {
   if (name == "stats.h5") return stats_table(folder / name);
   if (name == "events.h5") return events_table(folder / name);
-  return csv_table(folder / name);
+  Table table = csv_table(folder / name);
+  if (name == "tracks.csv") cases::add_first_columns(table, "id");
+  return table;
 }
 
 }  // namespace

@@ -21,6 +21,8 @@ TEST(Formula, PrecedenceIsThatOfAlgebra) {
   EXPECT_EQ(value("(1 + 1e-3*1000)*2"), 4.0);
   EXPECT_EQ(value("1 < 2"), 1.0);
   EXPECT_EQ(value("(3 <= 2) + (2 >= 2)"), 1.0);
+  EXPECT_EQ(value("(id == 3)*(1 + 1 != 3)", {{"id", 3.0}}), 1.0);
+  EXPECT_EQ(value("(id == 3) + (2 != 1 + 1)", {{"id", 4.0}}), 0.0);
 }
 
 TEST(Formula, FunctionsAndNamesAreThoseOfTheLibrary) {

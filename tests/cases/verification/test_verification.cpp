@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <set>
 
 #include "cases/search_path.hpp"
 #include "cases/verification/evaluate.hpp"
@@ -140,6 +141,36 @@ TEST_F(VerificationFile, DerivativesAreSlopesBetweenRows) {
   EXPECT_NEAR(evaluate(first, first.readings[0], first.runs[0], output(0.1)), 1.5, 1e-12);
 }
 
+// One line of the results for each run, with the label of the run or its name.
+TEST_F(VerificationFile, AChecksRunsAreALineEach) {
+  std::string text = replaced(sample, "run = \"coarse\"\nresult", "runs = [\"coarse\", \"fine\"]\nresult");
+  text = replaced(text, "name = \"fine\"", "name = \"fine\"\nlabel = \"a fine grid\"");
+  const Verification v = read(text);
+  ASSERT_EQ(v.checks.size(), 5u);
+  EXPECT_EQ(v.checks[3].quantity, "bound, coarse");
+  EXPECT_EQ(v.checks[4].quantity, "bound, a fine grid");
+  const std::map<std::string, RunOutput> runs{{"coarse", output(0.2)}, {"fine", output(0.1)}};
+  EXPECT_NEAR(evaluate(v, v.checks[3], runs).value, 3.4, 1e-12);
+  EXPECT_NEAR(evaluate(v, v.checks[4], runs).value, 3.1, 1e-12);
+  EXPECT_EQ(runs_of(v, v.checks[4]), std::vector<std::string>{"fine"});
+  EXPECT_NE(problems(replaced(sample, "run = \"coarse\"", "run = \"coarse\"\nruns = [\"fine\"]")).find("one of 'run'"),
+            std::string::npos);
+  EXPECT_NE(problems(replaced(text, "[\"coarse\", \"fine\"]\nresult", "[\"fin\"]\nresult")).find("no run 'fin'"),
+            std::string::npos);
+}
+
+// Carriers 7 and 5, of which the second appears later: each row holds what its carrier's first row holds.
+TEST(Tables, RowsKnowHowTheirCarrierBegan) {
+  Table t;
+  t.numbers = {{"id", {7.0, 7.0, 5.0, 7.0, 5.0}}, {"u", {1.0, 2.0, 3.0, 4.0, 5.0}}};
+  add_first_columns(t, "id");
+  EXPECT_EQ(t.numbers.at("first_u"), (std::vector<double>{1.0, 1.0, 3.0, 1.0, 3.0}));
+  EXPECT_EQ(t.numbers.at("u"), (std::vector<double>{1.0, 2.0, 3.0, 4.0, 5.0}));
+  const std::size_t columns = t.numbers.size();
+  add_first_columns(t, "name");
+  EXPECT_EQ(t.numbers.size(), columns) << "there is no such column to go by";
+}
+
 TEST_F(VerificationFile, WhatIsMissingOrNoNumberFails) {
   const Verification v = read(sample);
   const Outcome missing = evaluate(v, v.checks[0], {{"coarse", output(0.2)}});
@@ -177,6 +208,16 @@ TEST(Catalogue, OfThisTreeIsReadAndItsCasesExist) {
       EXPECT_NO_THROW(read_case(run.case_file, run.sets));
     }
   EXPECT_TRUE(std::filesystem::is_directory(verification_directory()));
+}
+
+TEST(Catalogue, HasChecksOfAllTwelveBenchmarksOfCarriers) {
+  std::set<std::string> found;
+  for (const Verification& v : read_catalogue(std::filesystem::path(PUFFIN_SOURCE_DIR) / "cases" / "verify"))
+    if (v.suite == "dem") found.insert(v.id);
+  for (int n = 1; n <= 12; ++n) {
+    const std::string id = (n < 10 ? "D0" : "D") + std::to_string(n);
+    EXPECT_TRUE(found.contains(id)) << id;
+  }
 }
 
 }  // namespace
