@@ -3,7 +3,9 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "cases/check_boundaries.hpp"
 #include "cases/check_places.hpp"
@@ -23,28 +25,37 @@
 namespace puffin::tools {
 namespace {
 
-/// Places outside the geometry are problems, a dose that does not fit is one; what starts deep in a wall is a warning.
-void check_places(const cases::Case& c, const cases::Surface& surface, cases::Assessment& assessment) {
-  const bool lists = c.carriers && !c.carriers->list.empty();
-  const bool places = !c.output.probes.empty() || !c.output.planes.empty() || !c.output.fields.empty();
-  const bool fills = c.carriers && c.carriers->fill;
-  if (!lists && !places && !fills) return;
-  const lbm::geometry::TriangleTree tree(surface.mesh);
-  auto problems = cases::carrier_place_problems(c, tree);
-  if (fills) try {
-      cases::dose_of(c, surface, tree);
-    } catch (const cases::CaseError& e) {
-      problems.insert(problems.end(), e.problems.begin(), e.problems.end());
-    }
-  if (c.air.model != cases::AirModel::none) {
-    const bool cells = c.numerics.dx || c.numerics.cells;  // a frozen field without fines needs none
-    const double dx = assessment.lattice ? assessment.lattice->dx
-                      : cells            ? cases::cell_size(c.numerics, surface.volume)
-                                         : 0.0;
-    for (auto& p : cases::output_place_problems(c, tree, dx)) problems.push_back(std::move(p));
-  }
-  if (!problems.empty()) throw cases::CaseError(std::move(problems));
-  for (auto& w : cases::carrier_place_warnings(c, tree)) assessment.warnings.push_back(std::move(w));
+using Problems = std::vector<cases::Problem>;
+
+/// Adds what one stage finds to what others found, so that a user sees all of it. Any other failure waits behind them:
+/// mistakes of the case come first.
+template <class Stage>
+void gather(Problems& problems, const Stage& stage) try {
+  stage();
+} catch (const cases::CaseError& e) {
+  problems.insert(problems.end(), e.problems.begin(), e.problems.end());
+} catch (const std::exception&) {
+  if (problems.empty()) throw;
+  throw cases::CaseError(std::move(problems));
+}
+
+void append(Problems& problems, Problems more) {
+  problems.insert(problems.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+}
+
+bool has_places(const cases::Case& c) {
+  const bool outputs = !c.output.probes.empty() || !c.output.planes.empty() || !c.output.fields.empty();
+  return outputs || (c.carriers && (!c.carriers->list.empty() || c.carriers->fill));
+}
+
+/// Places outside the geometry are problems, a dose that does not fit is one.
+void check_places(const cases::Case& c, const cases::Surface& surface, const lbm::geometry::TriangleTree& tree,
+                  Problems& problems) {
+  append(problems, cases::carrier_place_problems(c, tree));
+  if (c.carriers && c.carriers->fill) gather(problems, [&] { cases::dose_of(c, surface, tree); });
+  if (c.air.model == cases::AirModel::none) return;
+  const bool cells = c.numerics.dx || c.numerics.cells;  // a frozen field without fines needs none
+  append(problems, cases::output_place_problems(c, tree, cells ? cases::cell_size(c.numerics, surface.volume) : 0.0));
 }
 
 /// Settings that diverged in the map of stability, or are not in it.
@@ -58,15 +69,22 @@ void check_stability(const cases::Case& c, cases::Assessment& assessment) {
 
 int check_case(const CaseArguments& a) {
   const cases::Case c = a.read();
-  if (c.fines && !c.fines->micromodels.empty()) cases::read_micromodels(c.fines->micromodels);
-  const cases::Surface surface = cases::load_surface(c, true);
-  if (auto problems = cases::boundary_problems(c, surface); !problems.empty())
-    throw cases::CaseError(std::move(problems));
-  if (auto problems = cases::table_problems(c); !problems.empty()) throw cases::CaseError(std::move(problems));
+  Problems problems;
+  if (c.fines && !c.fines->micromodels.empty())
+    gather(problems, [&] { cases::read_micromodels(c.fines->micromodels); });
+  cases::Surface surface;
+  gather(problems, [&] { surface = cases::load_surface(c, true); });
+  gather(problems, [&] { append(problems, cases::boundary_problems(c, surface)); });
+  gather(problems, [&] { append(problems, cases::table_problems(c)); });
   if (const auto* run = std::get_if<cases::RunField>(&c.air.frozen); run && c.air.model == cases::AirModel::frozen)
-    cases::from_file(c, "air.field", [&] { return read_stored_field(*run); });
+    gather(problems, [&] { cases::from_file(c, "air.field", [&] { return read_stored_field(*run); }); });
+  std::optional<lbm::geometry::TriangleTree> tree;
+  if (has_places(c)) tree.emplace(surface.mesh);
+  if (tree) gather(problems, [&] { check_places(c, surface, *tree, problems); });
+  if (!problems.empty()) throw cases::CaseError(std::move(problems));
   cases::Assessment assessment = cases::assess(c, surface);
-  check_places(c, surface, assessment);
+  if (tree)
+    for (auto& w : cases::carrier_place_warnings(c, *tree)) assessment.warnings.push_back(std::move(w));
   check_stability(c, assessment);
   for (auto& w : cases::boundary_warnings(c, surface)) assessment.warnings.push_back(std::move(w));
   for (const lbm::geometry::Defect& d : surface.defects) assessment.warnings.push_back(d.kind + ": " + d.message);
