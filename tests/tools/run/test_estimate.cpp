@@ -92,5 +92,17 @@ initial = { shape = "gaussian", center = [5e-4, 2.5e-4, 2.5e-4], sigma = "0.1 mm
   EXPECT_GT(said["seconds"].get<double>(), 500.0);
 }
 
+// Plain BGK at the real viscosity diverges with the full flow, whatever the step; the rehearsal is the run's beginning.
+TEST_F(Estimate, ARehearsalThatDivergesSaysSo) {
+  const std::string command = "cd " + folder_.string() + " && " + PUFFIN_BINARY_DIR + "/puffin estimate " +
+                              PUFFIN_SOURCE_DIR +
+                              "/cases/stability/step-inlet.toml --set numerics.collision=bgk --json "
+                              "> failed.json 2> failed.log";
+  EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 5) << text("failed.log");
+  std::ifstream stream(folder_ / "failed.json");
+  const std::string said = nlohmann::json::parse(stream)["warnings"].dump();
+  EXPECT_NE(said.find("the rehearsal failed, as a run would (exit code 5)"), std::string::npos) << said;
+}
+
 }  // namespace
 }  // namespace puffin
