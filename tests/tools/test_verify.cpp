@@ -99,6 +99,12 @@ TEST(Verify, UnknownNamesAreUsageErrorsAndFailedRunsAreFailures) {
   EXPECT_EQ(puffin("verify --suite flows").code, 2);
   EXPECT_EQ(puffin("verify --only V99").code, 2);
   EXPECT_EQ(puffin("verify --set nonsense").code, 2);
+  const Result slow = puffin("verify --quick --only V08 --only V01", "2>&1");  // no check of it is quick
+  EXPECT_EQ(slow.code, 2);
+  EXPECT_NE(slow.out.find("V08: --quick leaves it out; the quick cases are"), std::string::npos) << slow.out;
+  const Result elsewhere = puffin("verify --suite flow --only D03", "2>&1");
+  EXPECT_EQ(elsewhere.code, 2);
+  EXPECT_NE(elsewhere.out.find("V01"), std::string::npos) << elsewhere.out;
   const Result result = puffin("verify --only V01 --quick --set numerics.nonsense=1", "2>&1");
   EXPECT_EQ(result.code, 9) << result.out;
   EXPECT_NE(result.out.find("did not finish"), std::string::npos) << result.out;

@@ -142,6 +142,30 @@ void check_names(const std::vector<cases::Verification>& catalogue, const Verify
     if (!matches(id, ids)) throw UsageError("there is no case '" + id + "'; the cases are " + cases::join(ids));
 }
 
+/// What --suite, --only and --quick choose. Throws UsageError if that leaves nothing of a case that was asked for by
+/// its name, or nothing at all: a catalogue that nobody ran has not passed.
+std::vector<const cases::Verification*> chosen(const std::vector<cases::Verification>& catalogue,
+                                               const VerifyArguments& a) {
+  std::vector<std::string> of_suites, ids;
+  std::vector<const cases::Verification*> list;
+  for (const cases::Verification& v : catalogue) {
+    if (!matches(v.suite, a.suites)) continue;
+    of_suites.push_back(v.id);
+    if (checks_of(v, a.quick).empty()) continue;
+    ids.push_back(v.id);
+    if (matches(v.id, a.only)) list.push_back(&v);
+  }
+  for (const std::string& id : a.only) {
+    if (!matches(id, of_suites))
+      throw UsageError("--only " + id + ": --suite leaves it out; its cases are " + cases::join(of_suites));
+    if (std::find(ids.begin(), ids.end(), id) == ids.end())
+      throw UsageError("--only " + id + ": --quick leaves it out" +
+                       (ids.empty() ? std::string() : "; the quick cases are " + cases::join(ids)));
+  }
+  if (list.empty()) throw UsageError("--suite and --quick leave no case");
+  return list;
+}
+
 void write_tables(const std::filesystem::path& out, const std::vector<VerifyRow>& rows) {
   write_csv(out / "verify.csv", rows);
   output::write_whole(out / "verify.md", to_markdown(rows));
@@ -160,12 +184,12 @@ int verify(const VerifyArguments& a) try {
   if (catalogue.empty())
     throw UsageError("--catalogue " + a.catalogue.string() + ": no folder in it has a verify.toml");
   check_names(catalogue, a);
+  const auto wanted = chosen(catalogue, a);
   const Workplace place(a.out);
   std::vector<VerifyRow> rows;
   if (!a.json) print(heading());
-  for (const cases::Verification& v : catalogue) {
-    if (!matches(v.suite, a.suites) || !matches(v.id, a.only)) continue;
-    for (const VerifyRow& row : verify_case(v, a, sets, place)) {
+  for (const cases::Verification* v : wanted) {
+    for (const VerifyRow& row : verify_case(*v, a, sets, place)) {
       rows.push_back(row);
       if (!a.json) print(to_text(row));
     }
