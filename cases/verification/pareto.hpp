@@ -39,6 +39,7 @@ struct ParetoCase {
   std::optional<Check> half_width;     // its value is the half width of the confidence interval of the check's value
   double reference_uncertainty = 0.0;  // in the unit of the reference
   std::vector<Override> sets, quick_sets;  // under every setting
+  std::vector<ParetoSetting> variants;     // every setting is run under each of them; the error is that of all
   std::vector<ParetoSetting> references;   // runs; the first gives the reference instead of the check, the others say
                                            // how far it may be off
   std::vector<ParetoAxis> axes;
@@ -51,8 +52,11 @@ inline constexpr char pareto_run[] = "this";
 /// The default first, then every setting of every axis, then the products. quick: only the settings marked so.
 std::vector<ParetoPoint> points_of(const ParetoCase& c, bool quick);
 
-/// The run of a point, with everything under it.
-VerificationRun run_of(const ParetoCase& c, const std::vector<Override>& sets, bool quick);
+/// The reference runs of the short benchmark, or of the full one: those marked so, or all if none is.
+std::vector<ParetoSetting> references_of(const ParetoCase& c, bool quick);
+
+/// The runs of a point, with everything under it: one, or one a variant.
+std::vector<VerificationRun> runs_of(const ParetoCase& c, const std::vector<Override>& sets, bool quick);
 
 /// Reads FOLDER/pareto.toml. Throws CaseError with every problem, std::system_error if it cannot be read.
 ParetoCase read_pareto(const std::filesystem::path& folder);

@@ -106,6 +106,7 @@ void describe(Fields& io, ParetoCase& c) {
   io.number("reference_uncertainty", c.reference_uncertainty, unit::number, Range::non_negative, otherwise(0.0));
   c.sets = overrides(io, "set");
   c.quick_sets = overrides(io, "quick_set");
+  io.list("variant", c.variants, [](Fields& f, ParetoSetting& s) { describe(f, s); });
   io.list("reference", c.references, [](Fields& f, ParetoSetting& s) { describe(f, s); });
   io.list("axis", c.axes, [](Fields& f, ParetoAxis& a) { describe(f, a); });
   take_products(io, c);
@@ -142,12 +143,25 @@ std::vector<ParetoPoint> points_of(const ParetoCase& c, bool quick) {
   return points;
 }
 
-VerificationRun run_of(const ParetoCase& c, const std::vector<Override>& sets, bool quick) {
-  VerificationRun run = c.verification.runs.front();
-  run.sets.insert(run.sets.end(), c.sets.begin(), c.sets.end());
-  if (quick) run.sets.insert(run.sets.end(), c.quick_sets.begin(), c.quick_sets.end());
-  run.sets.insert(run.sets.end(), sets.begin(), sets.end());
-  return run;
+std::vector<ParetoSetting> references_of(const ParetoCase& c, bool quick) {
+  std::vector<ParetoSetting> fitting = c.references;
+  std::erase_if(fitting, [quick](const ParetoSetting& s) { return s.quick != quick; });
+  return fitting.empty() ? c.references : fitting;
+}
+
+std::vector<VerificationRun> runs_of(const ParetoCase& c, const std::vector<Override>& sets, bool quick) {
+  VerificationRun base = c.verification.runs.front();
+  base.sets.insert(base.sets.end(), c.sets.begin(), c.sets.end());
+  if (quick) base.sets.insert(base.sets.end(), c.quick_sets.begin(), c.quick_sets.end());
+  std::vector<VerificationRun> runs;
+  for (const ParetoSetting& variant : c.variants) {
+    if (quick && !variant.quick) continue;
+    runs.push_back(base);
+    runs.back().sets.insert(runs.back().sets.end(), variant.sets.begin(), variant.sets.end());
+  }
+  if (runs.empty()) runs.push_back(base);
+  for (VerificationRun& run : runs) run.sets.insert(run.sets.end(), sets.begin(), sets.end());
+  return runs;
 }
 
 ParetoCase read_pareto(const std::filesystem::path& folder) {

@@ -15,8 +15,8 @@ struct Result {
   std::string out;
 };
 
-Result puffin(const std::string& arguments) {
-  const std::string command = std::string(PUFFIN_BINARY_DIR) + "/puffin " + arguments + " 2>/dev/null";
+Result puffin(const std::string& arguments, const std::string& errors = "2>/dev/null") {
+  const std::string command = std::string(PUFFIN_BINARY_DIR) + "/puffin " + arguments + " " + errors;
   FILE* pipe = popen(command.c_str(), "r");
   Result result;
   std::array<char, 4096> buffer;
@@ -50,6 +50,12 @@ TEST(Stability, WhatDivergesIsNamed) {
   EXPECT_EQ(rows[1]["variation"], "bgk");
   EXPECT_EQ(rows[1]["outcome"], "diverged") << rows[1];
   EXPECT_NE(rows[1]["why"].get<std::string>().find("cell"), std::string::npos) << rows[1]["why"];
+}
+
+TEST(Stability, NothingChosenIsAUsageErrorThatNamesTheScenes) {
+  const Result result = puffin("bench stability --only nosuch", "2>&1");
+  EXPECT_EQ(result.code, 2);
+  EXPECT_NE(result.out.find("back-flow"), std::string::npos) << result.out;
 }
 
 }  // namespace

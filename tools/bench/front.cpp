@@ -25,6 +25,16 @@ std::vector<bool> on_front(const std::vector<CostAndError>& settings) {
   return front;
 }
 
+std::size_t best_for_cost(const std::vector<CostAndError>& settings, std::size_t which) {
+  std::size_t best = which;
+  for (std::size_t n = 0; n < settings.size(); ++n) {
+    const CostAndError &s = settings[n], &b = settings[best];
+    if (!std::isfinite(s.error) || !(s.seconds <= settings[which].seconds)) continue;
+    if (!std::isfinite(b.error) || s.error < b.error || (s.error == b.error && s.seconds < b.seconds)) best = n;
+  }
+  return best;
+}
+
 double time_over_front(const std::vector<CostAndError>& settings, std::size_t which, bool certain) {
   const CostAndError& own = settings[which];
   double fastest = own.seconds;

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 
@@ -33,8 +34,9 @@ std::span<const Bench> benches() {
 
 namespace {
 
-/// A field of a CSV file: in quotes where it holds a comma, a quote or a line's end.
+/// A field of a CSV file: in quotes where it holds a comma, a quote or a line's end; a number that is none as `nan`.
 std::string field(const json& value) {
+  if (value.is_null() || (value.is_number_float() && !std::isfinite(value.get<double>()))) return "nan";
   if (!value.is_string()) return value.dump();
   const std::string text = value.get<std::string>();
   if (text.find_first_of(",\"\n") == std::string::npos) return text;
@@ -70,7 +72,7 @@ json machine_json() {
 int bench(const BenchArguments& a) {
   const auto found = std::find_if(benches().begin(), benches().end(), [&](const Bench& b) { return a.name == b.name; });
   if (!a.out.empty()) std::filesystem::create_directories(a.out);
-  const json rows = found->rows(a);
+  const auto [rows, code] = found->rows(a);
   const json result{{"machine", machine_json()}, {"rows", rows}};
   if (!a.out.empty()) {
     const std::filesystem::path folder(a.out);
@@ -78,7 +80,7 @@ int bench(const BenchArguments& a) {
     std::ofstream(folder / (a.name + ".json")) << result.dump(2) << '\n';
   }
   if (a.json) print(result.dump(2));
-  return ok;
+  return code;
 }
 
 }  // namespace
@@ -102,6 +104,11 @@ Command bench() {
             app.add_option("--only", a->only,
                            "pareto: this case alone, like P9; stability: this scene; may be repeated")
                 ->type_name("ID");
+            app.add_option("--catalogue", a->catalogue,
+                           "pareto: a folder of cases with pareto.toml, instead of Puffin's own")
+                ->type_name("DIR");
+            app.add_flag("--processor-time", a->processor_time,
+                         "pareto: weigh processor time against the error, not run time: for a machine with other work");
             app.add_option("--out", a->out, "a folder for the rows as CSV and JSON, and for figures");
             app.add_flag("--json", a->json, "one JSON object on stdout");
             return [a] { return puffin::tools::bench(*a); };

@@ -3,7 +3,8 @@
 
 namespace puffin::tools {
 
-/// While one lives, SIGTERM and Ctrl-C are only noted; then they do again what they did before.
+/// While one lives, SIGTERM and Ctrl-C are only noted; then they do again what they did before. Of several, one within
+/// another (a run within a benchmark), the outermost counts.
 class Signals {
  public:
   Signals();
@@ -11,8 +12,10 @@ class Signals {
   Signals(const Signals&) = delete;
   Signals& operator=(const Signals&) = delete;
 
-  /// SIGTERM, SIGINT, or 0: the last that came since the newest Signals began. Any thread may ask.
+  /// SIGTERM, SIGINT, or 0: the last that came since the outermost Signals began. Any thread may ask.
   static int received();
+  /// What the program ends with for the signal received: `interrupted` or `stopped`; `ok` if none came.
+  static int code();
 
  private:
   void (*terminate_)(int);

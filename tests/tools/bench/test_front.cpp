@@ -35,6 +35,20 @@ TEST(Front, AnyOrderGivesTheSameSettings) {
   EXPECT_EQ(on_front(settings), std::vector<bool>(back.rbegin(), back.rend()));
 }
 
+// At the cost of each of: fast and wrong, slow and wrong, slower and right, and one that failed early.
+TEST(BestForCost, IsTheMostAccurateThatCostsNoMore) {
+  const std::vector<CostAndError> settings{{1.0, 0.5, 0.0}, {4.0, 0.6, 0.0}, {5.0, 0.1, 0.0}, {0.5, nan, 0.0}};
+  EXPECT_EQ(best_for_cost(settings, 0), 0U);
+  EXPECT_EQ(best_for_cost(settings, 1), 0U);
+  EXPECT_EQ(best_for_cost(settings, 2), 2U);
+  EXPECT_EQ(best_for_cost(settings, 3), 3U);  // nothing else is so cheap
+}
+
+TEST(BestForCost, OfEqualsIsTheFastestWhateverTheOrder) {
+  EXPECT_EQ(best_for_cost({{2.0, 0.1, 0.0}, {1.0, 0.1, 0.0}}, 0), 1U);
+  EXPECT_EQ(best_for_cost({{1.0, 0.1, 0.0}, {2.0, 0.1, 0.0}}, 1), 0U);
+}
+
 TEST(TimeOverFront, IsTheRatioToTheFastestThatIsNoLessAccurate) {
   const std::vector<CostAndError> settings{{10.0, 0.10, 0.0}, {8.0, 0.09, 0.0}, {1.0, 0.50, 0.0}};
   EXPECT_DOUBLE_EQ(time_over_front(settings, 0, false), 10.0 / 8.0);

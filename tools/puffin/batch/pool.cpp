@@ -24,8 +24,21 @@ Child::Child(const std::vector<std::string>& arguments, const std::filesystem::p
   argv.push_back(nullptr);
   const std::string log_name = log.string();
   const pid_t parent = getpid();
+  // Held up until the child has no handler of ours any more: what came between fork and exec would be noted and
+  // forgotten.
+  sigset_t held, before;
+  sigemptyset(&held);
+  sigaddset(&held, SIGTERM);
+  sigaddset(&held, SIGINT);
+  pthread_sigmask(SIG_BLOCK, &held, &before);
   pid_ = fork();
-  if (pid_ < 0) throw std::system_error(errno, std::generic_category(), "cannot start a run");
+  const int failed = errno;
+  if (pid_ == 0) {
+    std::signal(SIGTERM, SIG_DFL);
+    std::signal(SIGINT, SIG_DFL);
+  }
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  if (pid_ < 0) throw std::system_error(failed, std::generic_category(), "cannot start a run");
   if (pid_ > 0) return;
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (getppid() != parent) _exit(75);  // the batch died in between

@@ -1,5 +1,6 @@
 #include "tools/puffin/bench/child_run.hpp"
 
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -8,9 +9,21 @@
 #include "tools/bench/machine.hpp"
 #include "tools/puffin/batch/pool.hpp"
 #include "tools/puffin/exit_codes.hpp"
+#include "tools/puffin/signals.hpp"
 #include "tools/puffin/verify_run.hpp"
 
 namespace puffin::tools {
+namespace {
+
+/// Of all children that have ended.
+double processor_seconds() {
+  rusage usage{};
+  getrusage(RUSAGE_CHILDREN, &usage);
+  const auto seconds = [](const timeval& v) { return static_cast<double>(v.tv_sec) + 1e-6 * v.tv_usec; };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+}  // namespace
 
 ChildRun run_child(const std::filesystem::path& case_file, const std::vector<cases::Override>& sets,
                    const std::filesystem::path& folder, const std::vector<std::string>& more) {
@@ -23,11 +36,18 @@ ChildRun run_child(const std::filesystem::path& case_file, const std::vector<cas
   const std::filesystem::path log = folder.string() + ".log";
   ChildRun run;
   const bench::ForeignLoad load;
+  const double spent = processor_seconds();
   const auto start = std::chrono::steady_clock::now();
   Child child(words, log);
   std::optional<int> code;
-  while (!(code = child.ended())) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  bool told = false;
+  while (!(code = child.ended())) {
+    if (!told && Signals::received() != 0) child.terminate(), told = true;  // Ctrl-C does not reach it
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  if (Signals::received() != 0) throw BenchStopped{};
   run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  run.processor_seconds = processor_seconds() - spent;
   run.foreign_load = load.share();
   run.exit_code = *code;
   if (run.exit_code == ok)

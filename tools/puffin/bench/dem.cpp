@@ -27,7 +27,7 @@ json row_json(const bench::DemRow& r) {
 
 }  // namespace
 
-json bench_dem(const BenchArguments& a) {
+BenchRows bench_dem(const BenchArguments& a) {
   json rows = json::array();
   const std::vector<std::int64_t> sizes(a.carriers.begin(), a.carriers.end());
   if (!a.json) print("scene   carriers thr  million/s  LIGGGHTS  ratio  contacts/s  a carrier  ns a carrier  foreign");
@@ -41,7 +41,7 @@ json bench_dem(const BenchArguments& a) {
                   r.contacts_per_second, r.contacts_per_carrier, r.nanoseconds_per_carrier, 100.0 * r.foreign_load);
     print(line);
   });
-  return rows;
+  return {rows};
 }
 
 }  // namespace puffin::tools

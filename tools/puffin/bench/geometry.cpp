@@ -27,7 +27,7 @@ json row_json(const bench::GeometryRow& r) {
 
 }  // namespace
 
-json bench_geometry(const BenchArguments& a) {
+BenchRows bench_geometry(const BenchArguments& a) {
   json rows = json::array();
   if (!a.json)
     print(
@@ -46,7 +46,7 @@ json bench_geometry(const BenchArguments& a) {
       print(line);
     }
   });
-  return rows;
+  return {rows};
 }
 
 }  // namespace puffin::tools

@@ -29,7 +29,7 @@ json row_json(const bench::KernelRow& r) {
 
 }  // namespace
 
-json bench_kernel(const BenchArguments& a) {
+BenchRows bench_kernel(const BenchArguments& a) {
   json rows = json::array();
   if (!a.json) print("scene     cells     thr collision precision wall       MLUPS   bare  bound  share  foreign");
   bench::kernel_benchmark(a.quick, a.cells, [&](const bench::KernelRow& r) {
@@ -42,7 +42,7 @@ json bench_kernel(const BenchArguments& a) {
                   r.mlups_bare, r.bound_mlups, 100.0 * r.fraction_of_bound, 100.0 * r.foreign_load);
     print(line);
   });
-  return rows;
+  return {rows};
 }
 
 }  // namespace puffin::tools

@@ -18,6 +18,7 @@
 #include "tools/puffin/bench/benches.hpp"
 #include "tools/puffin/bench/child_run.hpp"
 #include "tools/puffin/console.hpp"
+#include "tools/puffin/signals.hpp"
 
 namespace puffin::tools {
 namespace {
@@ -58,13 +59,17 @@ class ScalingBench {
  public:
   explicit ScalingBench(const BenchArguments& a) : a_(a), place_("puffin-bench") {}
 
-  json rows() {
+  BenchRows rows() {
+    const Signals signals;
     if (!a_.json) print("work           size     seconds  of");
-    cells();
-    carriers();
-    scalars();
-    triangles();
-    if (!a_.out.empty()) figure();
+    try {
+      cells();
+      carriers();
+      scalars();
+      triangles();
+    } catch (const BenchStopped&) {
+    }
+    if (!a_.out.empty() && !all_.empty()) figure();
     json list = json::array();
     for (const ScalingRow& r : all_)
       list.push_back({{"work", r.work},
@@ -74,7 +79,7 @@ class ScalingBench {
                       {"exponent", r.exponent},
                       {"memory_peak", r.memory_peak},
                       {"foreign_load", r.foreign_load}});
-    return list;
+    return {list, Signals::code()};
   }
 
  private:
@@ -170,6 +175,7 @@ class ScalingBench {
       rows.push_back({"triangles", static_cast<double>(mesh->triangles.size()),
                       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
                       "tree and 200000 cells", 0.0, 0.0, 0.0});
+      if (Signals::received() != 0) throw BenchStopped{};
     }
     add(rows);
   }
@@ -200,6 +206,6 @@ class ScalingBench {
 
 }  // namespace
 
-json bench_scaling(const BenchArguments& a) { return ScalingBench(a).rows(); }
+BenchRows bench_scaling(const BenchArguments& a) { return ScalingBench(a).rows(); }
 
 }  // namespace puffin::tools

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 
 #include "cases/micromodel_file.hpp"
 #include "cases/search_path.hpp"
@@ -14,6 +15,7 @@
 #include "tools/puffin/bench/child_run.hpp"
 #include "tools/puffin/console.hpp"
 #include "tools/puffin/replay_record.hpp"
+#include "tools/puffin/signals.hpp"
 
 namespace puffin::tools {
 namespace {
@@ -162,11 +164,33 @@ SkipRow replayed(const SceneBench& bench, const std::string& scene) {
   return row;
 }
 
+/// All rows of a scene.
+void bench_scene(const cases::AblationList& list, const cases::AblationScene& scene, bool quick, TemporaryFolder& place,
+                 const std::function<void(const SkipRow&)>& add) {
+  SceneBench bench(scene, quick, place);
+  std::vector<Override> everything;
+  for (const cases::Ablation& skip : list.skips) {
+    if (skip.scene != scene.name) continue;
+    const Measured without = bench.run(skip.off);
+    add({skip.name, scene.name, skip.exact, bench.base().seconds, without.seconds,
+         largest_change(bench.base().answers, without.answers), bench.confidence()});
+    everything.insert(everything.end(), skip.off.begin(), skip.off.end());
+  }
+  const Measured without = bench.run(everything);
+  add({"all of these together", scene.name, false, bench.base().seconds, without.seconds,
+       largest_change(bench.base().answers, without.answers), bench.confidence()});
+  if (scene.name != list.scenes.front().name) return;
+  add(shared_scalars(bench, scene.name));
+  add(replayed(bench, scene.name));
+  add(solid_cells(scene.name, bench.base()));
+}
+
 }  // namespace
 
-json bench_skip(const BenchArguments& a) {
+BenchRows bench_skip(const BenchArguments& a) {
   const cases::AblationList list = cases::read_ablations(cases::bench_directory() / "skip.toml");
   TemporaryFolder place("puffin-bench");
+  const Signals signals;
   json rows = json::array();
   const auto add = [&](const SkipRow& row) {
     rows.push_back(to_json(row));
@@ -174,25 +198,11 @@ json bench_skip(const BenchArguments& a) {
   };
   if (!a.json)
     print("skip                                 scene          with, s  without  ratio  change    confidence");
-  for (const cases::AblationScene& scene : list.scenes) {
-    SceneBench bench(scene, a.quick, place);
-    std::vector<Override> everything;
-    for (const cases::Ablation& skip : list.skips) {
-      if (skip.scene != scene.name) continue;
-      const Measured without = bench.run(skip.off);
-      add({skip.name, scene.name, skip.exact, bench.base().seconds, without.seconds,
-           largest_change(bench.base().answers, without.answers), bench.confidence()});
-      everything.insert(everything.end(), skip.off.begin(), skip.off.end());
-    }
-    const Measured without = bench.run(everything);
-    add({"all of these together", scene.name, false, bench.base().seconds, without.seconds,
-         largest_change(bench.base().answers, without.answers), bench.confidence()});
-    if (scene.name != list.scenes.front().name) continue;
-    add(shared_scalars(bench, scene.name));
-    add(replayed(bench, scene.name));
-    add(solid_cells(scene.name, bench.base()));
+  try {
+    for (const cases::AblationScene& scene : list.scenes) bench_scene(list, scene, a.quick, place, add);
+  } catch (const BenchStopped&) {  // the rows so far are kept
   }
-  return rows;
+  return {rows, Signals::code()};
 }
 
 }  // namespace puffin::tools

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "cases/search_path.hpp"
+#include "cases/spelling.hpp"
 #include "tools/output/csv_file.hpp"
 #include "tools/output/output_folder.hpp"
 #include "tools/puffin/bench/benches.hpp"
@@ -19,6 +20,7 @@
 #include "tools/puffin/console.hpp"
 #include "tools/puffin/exit_codes.hpp"
 #include "tools/puffin/run.hpp"
+#include "tools/puffin/signals.hpp"
 
 namespace puffin::tools {
 namespace {
@@ -112,10 +114,7 @@ json make_row(const StabilityTrial& trial, const Workshop& place) {
   options.report = false;
   try {
     const int code = run_command(options);
-    if (code == interrupted || code == stopped) {
-      row["outcome"] = "interrupted";
-      return row;
-    }
+    if (code == interrupted || code == stopped) return row;
     std::ifstream in(options.out / "summary.json");
     const json summary = json::parse(in);
     auto warnings = summary.value("warnings", std::vector<std::string>());  // of them only the retreats
@@ -142,11 +141,21 @@ json make_row(const StabilityTrial& trial, const Workshop& place) {
   return row;
 }
 
+void check_names(const StabilityPlan& plan, const std::vector<std::string>& only) {
+  std::vector<std::string> names;
+  for (const StabilityScene& scene : plan.scenes) names.push_back(scene.name);
+  for (const std::string& name : only)
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      throw UsageError("there is no scene '" + name + "'; the scenes are " + cases::join(names));
+}
+
 }  // namespace
 
-json bench_stability(const BenchArguments& a) {
+BenchRows bench_stability(const BenchArguments& a) {
   const std::filesystem::path folder = cases::stability_directory();
   const StabilityPlan plan = read_stability_plan(folder / "stability.toml");
+  check_names(plan, a.only);
+  const Signals signals;
   const Workshop place(folder);
   json rows = json::array();
   bool whole = !a.quick && a.only.empty();
@@ -154,7 +163,7 @@ json bench_stability(const BenchArguments& a) {
   for (const StabilityTrial& trial : trials_of(plan, a.quick)) {
     if (!a.only.empty() && std::find(a.only.begin(), a.only.end(), trial.scene->name) == a.only.end()) continue;
     const json made = make_row(trial, place);
-    if (made["outcome"] == "interrupted") {
+    if (Signals::received() != 0) {  // this run was cut short
       whole = false;
       break;
     }
@@ -173,7 +182,7 @@ json bench_stability(const BenchArguments& a) {
     output::write_whole(out / "stability.svg", stability_map(rows));
     if (whole) output::write_whole(out / "envelope.toml", cases::write_envelope(envelope_of(plan, folder, rows)));
   }
-  return rows;
+  return {rows, Signals::code()};
 }
 
 }  // namespace puffin::tools
