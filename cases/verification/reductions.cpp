@@ -6,6 +6,8 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "coupling/statistics.hpp"
+
 namespace puffin::cases {
 namespace {
 
@@ -161,6 +163,7 @@ const std::vector<ReductionName>& reductions() {
       {"first", Reduction::first, "first ordinate"},
       {"last", Reduction::last, "last ordinate"},
       {"mean", Reduction::mean, "mean ordinate"},
+      {"mean-half-width", Reduction::mean_half_width, "half the confidence interval of the mean"},
       {"sum", Reduction::sum, "sum of the ordinates"},
       {"count", Reduction::count, "number of points"},
       {"minimum", Reduction::minimum, "smallest ordinate"},
@@ -196,6 +199,8 @@ double reduce(Reduction kind, const Points& p, const ReductionArguments& argumen
       return p.y.back();
     case Reduction::mean:
       return mean(p.y);
+    case Reduction::mean_half_width:
+      return coupling::batch_means(p.y, std::vector<double>(p.y.size(), 1.0)).half_width;
     case Reduction::sum:
       return sum(p.y);
     case Reduction::minimum:

@@ -26,6 +26,7 @@ enum class Reduction {
   first,
   last,
   mean,
+  mean_half_width,
   sum,
   count,
   minimum,
@@ -56,6 +57,8 @@ const std::vector<ReductionName>& reductions();
 /// Throws std::invalid_argument if there are too few points or an argument is missing.
 ///   value           linear between the two points around `at`, rising or falling; outside the points it throws
 ///   first, last     ordinate of the first, last point
+///   mean-half-width  half the 95 % confidence interval of the mean, by batch means of points equally far apart
+///                   (coupling/statistics.hpp); NaN with fewer than 8 points
 ///   mean, sum, count, minimum, maximum, range    of the ordinates
 ///   at-minimum, at-maximum    abscissa of the extremum, from the parabola through it and its neighbours
 ///   integral        trapezoids over x

@@ -101,5 +101,22 @@ TEST(Reductions, RefuseWhatTheyCannotDo) {
   EXPECT_THROW(reduce(Reduction::period, p), std::invalid_argument);
 }
 
+// 400 points that alternate between -1 and 1: every batch of 20 has mean 0. A step half way: no batches agree.
+// A sinusoid of 40 points a period, 10 periods: the 20 batches have means +-2/pi in turn, whose lag correlation is
+// negative and does not widen: t(0.975, 19) s/sqrt(20) with s = 2/pi sqrt(20/19), t = 2.093 within 0.2 %; the mean of
+// 20 points of a half period is 2/pi to (pi/20)^2/24 = 0.1 %.
+TEST(Reductions, HalfWidthOfTheMeanIsThatOfBatchMeans) {
+  Points p;
+  for (int i = 0; i < 400; ++i) {
+    p.x.push_back(i);
+    p.y.push_back(i % 2 == 0 ? 1.0 : -1.0);
+  }
+  EXPECT_NEAR(reduce(Reduction::mean_half_width, p), 0.0, 1e-14);
+  for (int i = 0; i < 400; ++i) p.y[static_cast<std::size_t>(i)] = std::sin(2.0 * pi * (i + 0.5) / 40.0);
+  EXPECT_NEAR(reduce(Reduction::mean_half_width, p), 2.093 * 2.0 / pi / std::sqrt(19.0), 0.003 * 0.306);
+  p.y.resize(5), p.x.resize(5);
+  EXPECT_TRUE(std::isnan(reduce(Reduction::mean_half_width, p)));
+}
+
 }  // namespace
 }  // namespace puffin::cases
