@@ -210,6 +210,22 @@ void add_first_columns(Table& table, const std::string& key) {
   table.numbers.merge(added);
 }
 
+void add_word_columns(Table& table, const std::string& key, const std::string& word) {
+  const auto keys = table.numbers.find(key);
+  const auto words = table.words.find(word);
+  if (keys == table.numbers.end() || words == table.words.end()) return;
+  std::map<std::string, std::map<double, std::size_t>> rows;
+  for (std::size_t row = 0; row < keys->second.size(); ++row) rows[words->second[row]][keys->second[row]] = row;
+  std::map<std::string, std::vector<double>> added;
+  for (const auto& [name, column] : table.numbers)
+    for (const auto& [text, row_at] : rows)
+      for (const double at : keys->second) {
+        const auto row = row_at.find(at);
+        added[name + "." + text].push_back(row == row_at.end() ? std::nan("") : column[row->second]);
+      }
+  table.numbers.merge(added);
+}
+
 double evaluate(const Verification& v, const Reading& reading, const VerificationRun& run, const RunOutput& output) {
   const Known known = known_of(v, run, output);
   if (reading.output == "fields") return reduce_fields(reading, output, known);

@@ -21,6 +21,11 @@ struct Table {
 /// holds. So a row of tracks.csv knows how its carrier began. No column `key`: nothing is added.
 void add_first_columns(Table& table, const std::string& key);
 
+/// Adds, for each column NAME of numbers and each WORD in the column `word`, a column "NAME.WORD": what the row with
+/// that word and the same number in `key` holds, NaN if there is none. So a row of planes.csv knows the other planes at
+/// its time. No column `key` or `word`: nothing is added.
+void add_word_columns(Table& table, const std::string& key, const std::string& word);
+
 /// What the runs left behind, as the evaluation asks for it.
 struct RunOutput {
   /// The whole numbers of summary.json by their dotted keys, "dx", "pressure.static_drop.mean".

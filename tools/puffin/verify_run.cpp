@@ -97,6 +97,7 @@ Table read_table(const std::filesystem::path& folder, const std::string& name) {
   if (name == "events.h5") return events_table(folder / name);
   Table table = csv_table(folder / name);
   if (name == "tracks.csv") cases::add_first_columns(table, "id");
+  if (name == "planes.csv") cases::add_word_columns(table, "time", "plane");
   return table;
 }
 

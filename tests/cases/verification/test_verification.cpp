@@ -171,6 +171,21 @@ TEST(Tables, RowsKnowHowTheirCarrierBegan) {
   EXPECT_EQ(t.numbers.size(), columns) << "there is no such column to go by";
 }
 
+// Planes a and b at times 1 and 2; b has no row at time 3.
+TEST(Tables, RowsKnowTheOtherPlanesAtTheirTime) {
+  Table t;
+  t.numbers = {{"time", {1.0, 1.0, 2.0, 2.0, 3.0}}, {"p", {10.0, 11.0, 20.0, 21.0, 30.0}}};
+  t.words = {{"plane", {"a", "b", "a", "b", "a"}}};
+  add_word_columns(t, "time", "plane");
+  EXPECT_EQ(t.numbers.at("p.a"), (std::vector<double>{10.0, 10.0, 20.0, 20.0, 30.0}));
+  EXPECT_EQ(t.numbers.at("p.b")[0], 11.0);
+  EXPECT_EQ(t.numbers.at("p.b")[3], 21.0);
+  EXPECT_TRUE(std::isnan(t.numbers.at("p.b")[4]));
+  const std::size_t columns = t.numbers.size();
+  add_word_columns(t, "time", "patch");
+  EXPECT_EQ(t.numbers.size(), columns) << "there is no such column to go by";
+}
+
 TEST_F(VerificationFile, WhatIsMissingOrNoNumberFails) {
   const Verification v = read(sample);
   const Outcome missing = evaluate(v, v.checks[0], {{"coarse", output(0.2)}});
