@@ -19,7 +19,8 @@ struct AblationScene {
 struct Ablation {
   std::string name, scene;
   std::vector<Override> off;
-  bool exact = false;  // claimed: the answer keeps every bit
+  bool exact = false;                // claimed: the answer keeps every bit
+  std::vector<std::string> answers;  // numbers of summary.json that it is judged by too, "pressure.static_drop.mean"
 };
 
 struct AblationList {

@@ -27,6 +27,7 @@ void describe(Fields& io, Ablation& a, const AblationList& list) {
   a.off = overrides(io, "off");
   if (a.off.empty()) io.problem("off", "name the settings that compute what is skipped");
   io.flag("exact", a.exact, otherwise(false));
+  io.texts("answers", a.answers, otherwise(a.answers));
   std::vector<std::string> names;
   for (const AblationScene& s : list.scenes) names.push_back(s.name);
   if (std::find(names.begin(), names.end(), a.scene) == names.end())

@@ -102,13 +102,15 @@ Command bench() {
             app.add_option("--carriers", a->carriers, "dem: numbers of carriers instead of the usual ones")
                 ->check(CLI::Range(1.0, 1e9));
             app.add_option("--only", a->only,
-                           "pareto: this case alone, like P9; stability: this scene; may be repeated")
+                           "pareto: this case alone, like P9; stability, skip: this scene; may be repeated")
                 ->type_name("ID");
             app.add_option("--catalogue", a->catalogue,
                            "pareto: a folder of cases with pareto.toml, instead of Puffin's own")
                 ->type_name("DIR");
             app.add_flag("--processor-time", a->processor_time,
                          "pareto: weigh processor time against the error, not run time: for a machine with other work");
+            app.add_option("--repeats", a->repeats, "skip: rounds of interleaved runs instead of 3 (--quick: 1)")
+                ->check(CLI::Range(1, 99));
             app.add_option("--out", a->out, "a folder for the rows as CSV and JSON, and for figures");
             app.add_flag("--json", a->json, "one JSON object on stdout");
             return [a] { return puffin::tools::bench(*a); };

@@ -101,6 +101,7 @@ TEST(Ablations, TheShippedListIsReadAndItsSettingsAreValid) {
                                     [&](const AblationScene& s) { return s.name == skip.scene; });
     ASSERT_NE(scene, list.scenes.end());
     EXPECT_NE(read_case(scene->case_file), read_case(scene->case_file, skip.off)) << skip.name;
+    EXPECT_EQ(skip.answers.size(), skip.name == "following the ramp" ? 2U : 0U) << "both pressure drops, or none";
   }
 }
 

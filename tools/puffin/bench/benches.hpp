@@ -16,9 +16,10 @@ struct BenchArguments {
   bool quick = false, json = false;
   std::vector<double> cells;        // kernel: numbers of cells instead of the usual ones
   std::vector<double> carriers;     // dem: numbers of carriers instead of the usual ones
-  std::vector<std::string> only;    // pareto: cases; stability: scenes
+  std::vector<std::string> only;    // pareto: cases; stability, skip: scenes
   std::filesystem::path catalogue;  // pareto: a folder of cases instead of Puffin's own
   bool processor_time = false;      // pareto: weighed against the error instead of the run time
+  int repeats = 0;                  // skip: interleaved repeats instead of the usual ones; 0: those
   std::string out;                  // folder for tables and figures; empty: none
 };
 

@@ -7,6 +7,7 @@
 #include "cases/spelling.hpp"
 #include "cases/verification/pareto.hpp"
 #include "tools/bench/front.hpp"
+#include "tools/bench/median.hpp"
 #include "tools/puffin/bench/benches.hpp"
 #include "tools/puffin/bench/pareto_figure.hpp"
 #include "tools/puffin/bench/pareto_trial.hpp"
@@ -18,11 +19,6 @@ namespace puffin::tools {
 namespace {
 
 using nlohmann::json;
-
-double median(std::vector<double> v) {
-  std::sort(v.begin(), v.end());
-  return v.empty() ? not_known : 0.5 * (v[(v.size() - 1) / 2] + v[v.size() / 2]);
-}
 
 /// 1 where both are exact.
 double ratio(double error, double best) { return error == best ? 1.0 : error / best; }
@@ -96,10 +92,10 @@ class CaseBench {
     std::vector<bench::CostAndError> settings, by_updates;
     for (std::size_t k = 0; k < rows_.size(); ++k) {
       ParetoRow& row = rows_[k];
-      row.seconds = median(seconds_[k]);
+      row.seconds = bench::median(seconds_[k]);
       row.seconds_min = *std::min_element(seconds_[k].begin(), seconds_[k].end());
       row.seconds_max = *std::max_element(seconds_[k].begin(), seconds_[k].end());
-      row.processor_seconds = median(processor_seconds_[k]);
+      row.processor_seconds = bench::median(processor_seconds_[k]);
       row.cost = by_processor_ ? row.processor_seconds : row.seconds;
       row.repeats = static_cast<int>(seconds_[k].size());
       settings.push_back({row.cost, row.error, row.error_half_width});
