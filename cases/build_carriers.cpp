@@ -159,6 +159,7 @@ void build_carriers(Simulation& s) {
   m.steps_per_exchange_asleep =
       n.skip.resting_exchange ? std::max(m.steps_per_exchange_asleep, n.coupling_interval) : n.coupling_interval;
   m.carriers.integration.sleep = n.skip.sleeping_carriers;
+  m.carriers.integration.free_flight = n.skip.free_flight;
   m.carriers_start = c.start;
   m.settling = c.fill.has_value();
 

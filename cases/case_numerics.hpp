@@ -16,6 +16,7 @@ enum class Precision { float32, float64 };
 /// What a run leaves out because the answer does not need it. All on by default; `puffin bench skip` measures each.
 struct Skip {
   bool sleeping_carriers = true;  // carriers at rest are not moved until something disturbs them
+  bool free_flight = true;        // carriers that touch nothing are moved in closed form, not by contact steps
   bool resting_exchange = true;   // fewer exchanges with the air while every carrier rests
   bool idle_transport = true;     // no transport of a scalar while next to none of it is airborne
   bool empty_cells = true;        // no transport where there are no fines nearby

@@ -66,7 +66,7 @@ SettledBed settle(dem::Models models, const dem::Walls& walls, const std::vector
   models.carrier = soft(models.carrier);
   models.wall = soft(models.wall);
   models.on_wall = dem::OnWall::bounce;
-  models.integration.sleep = true;
+  models.integration.sleep = models.integration.free_flight = true;
   dem::State state;
   dem::add(carriers, state);
   const std::vector<dem::Load> loads(carriers.size());

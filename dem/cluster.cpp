@@ -226,6 +226,8 @@ void Motion::run() {
   for (const Body& body : c.bodies) c.fastest = std::max(c.fastest, vec(body.v).squaredNorm());
   c.fastest = std::sqrt(c.fastest);
   evaluate(0.0, duration_);
+  const bool in_closed_form = rules_.integration.free_flight;
+  const double in_flight = in_closed_form ? never : step_in_flight(rules_, c);
   std::int64_t unasked = 0;
   for (std::int64_t taken = 0; elapsed_ < duration_ && !c.disturbed;) {
     if (++taken > most_steps)
@@ -236,7 +238,7 @@ void Motion::run() {
       unasked = 0;
     }
     const double remaining = duration_ - elapsed_;
-    const bool flies = !live_;
+    const bool flies = !live_ && in_closed_form;
     double h = std::min(remaining, look_);
     if (flies) {
       const double most = h;
@@ -245,7 +247,7 @@ void Motion::run() {
       if (h < most)  // one of those that were left alone, as nothing was fast, may be the one that is met
         for (Springs& block : c.springs) block.idle_until = 0.0;
     } else {
-      h = std::min(h, step_);
+      h = std::min({h, step_, live_ ? never : in_flight});
       h = remaining / std::ceil(remaining / h * (1.0 - 1e-12));
       kick_and_drift(h);
     }

@@ -130,6 +130,10 @@ void match_walls(std::int32_t b, double time, const Rules& rules, Cluster& clust
 /// Time [s] until the first touch of anything, at most `horizon`, while nothing is live.
 double time_of_flight(double horizon, const Cluster& cluster);
 
+/// The longest sub-step [s] of a cluster in which nothing touches, where free flight is not taken in closed form
+/// (Integration::free_flight): that of the impact on a wall which its bodies, with their present speeds, would have.
+double step_in_flight(const Rules& rules, Cluster& cluster);
+
 /// Moves the bodies over `duration` [s] from `time`. Velocity Verlet (kick, drift, kick) with forces at the predicted
 /// end velocity (second order also with dashpots and drag); a contact that begins or ends within a sub-step counts for
 /// its part of it; while nothing touches, the closed form of free flight up to the next touch. The sub-step is at most

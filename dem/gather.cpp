@@ -209,7 +209,7 @@ void find_clusters(double duration, const Rules& rules, const State& state, Gath
   std::vector<std::uint8_t>& busy = g.at_wall;
   for (const std::int32_t i : g.awake) {
     g.parent[i] = i;
-    if (state.first_contact[i] >= 0) busy[i] = 1;
+    if (state.first_contact[i] >= 0 || !rules.integration.free_flight) busy[i] = 1;
   }
   for (const auto& [i, j] : g.pairs) {
     busy[i] = 1;

@@ -107,6 +107,7 @@ struct Integration {
   double steps_per_contact = 20.0;  // sub-steps in the contact time t_c of the stiffest live contact, >= 10
   double skin = 0.2;                // of the neighbour list, in mean diameters
   bool sleep = true;                // carriers at rest cost nothing
+  bool free_flight = true;          // what touches nothing moves in closed form; false: by steps as contacts take
   int sleep_steps = 50;             // air steps at rest before a carrier sleeps
   double sleep_use = 0.8;    // a carrier sleeps only while each contact holds with at most this part of its limit
   double wake_change = 0.1;  // a sleeper wakes when its force has changed by this part of what holds it

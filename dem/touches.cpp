@@ -32,6 +32,18 @@ SpringLaw springs_of(const SurfaceLaw& law, const Rules& rules) {
   return s;
 }
 
+/// What tells a body and a wall from other pairs.
+PairNumbers numbers_at_wall(const Body& body, const BodyRecord& record, const Rules& rules) {
+  PairNumbers numbers;
+  numbers.wall = true;
+  numbers.radius_a = body.radius, numbers.single_a = record.single_radius;
+  numbers.radius_b = numbers.single_b = never;
+  numbers.strength = adhesion_factor(rules.wall.spread.seed, record.id, rules.wall.spread.sigma);
+  numbers.inverse_mass = 1.0 / record.mass;
+  numbers.lightest = record.mass / body.radius;
+  return numbers;
+}
+
 /// The last pair's numbers, if they are these too; else new ones.
 std::int32_t pair_numbers(const PairNumbers& wanted, const Rules& rules, Cluster& cluster) {
   const std::size_t from = cluster.pairs.size() < 2 ? 0 : cluster.pairs.size() - 2;  // one of carriers, one of the wall
@@ -88,22 +100,18 @@ std::int32_t add_touch(std::int32_t a, std::int32_t b, const Rules& rules, Clust
   Touch& touch = cluster.touches.emplace_back();
   touch.a = a, touch.b = b;
   const BodyRecord& first = cluster.records[a];
-  PairNumbers wanted;
-  wanted.wall = b < 0;
-  wanted.radius_a = cluster.bodies[a].radius, wanted.single_a = first.single_radius;
-  const Spread& spread = rules.law(wanted.wall).spread;
-  wanted.strength = adhesion_factor(spread.seed, first.id, spread.sigma);
+  PairNumbers wanted = numbers_at_wall(cluster.bodies[a], first, rules);
   if (b >= 0) {
     const BodyRecord& second = cluster.records[b];
+    const Spread& spread = rules.carrier.spread;
+    wanted.wall = false;
     wanted.radius_b = cluster.bodies[b].radius, wanted.single_b = second.single_radius;
+    wanted.strength = adhesion_factor(spread.seed, first.id, spread.sigma);
     if (spread.sigma != 0.0)
       wanted.strength = std::sqrt(wanted.strength * adhesion_factor(spread.seed, second.id, spread.sigma));
     wanted.inverse_mass = cluster.bodies[a].inverse_mass + cluster.bodies[b].inverse_mass;
     wanted.lightest = std::min(first.mass / wanted.radius_a, second.mass / wanted.radius_b);
   } else {
-    wanted.radius_b = wanted.single_b = never;
-    wanted.inverse_mass = 1.0 / first.mass;
-    wanted.lightest = first.mass / wanted.radius_a;
     touch.next_wall = first.first_wall;
     cluster.records[a].first_wall = index;
   }
@@ -230,6 +238,19 @@ void match_walls(std::int32_t b, double time, const Rules& rules, Cluster& clust
     if (cluster.live(i)) end_contact(time, i, cluster);
     cluster.block(i).phase[i % Springs::lanes] = lane::lost;
   }
+}
+
+double step_in_flight(const Rules& rules, Cluster& cluster) {
+  double step = never;
+  for (std::size_t i = 0; i < cluster.bodies.size(); ++i) {
+    const BodyRecord& record = cluster.records[i];
+    if (record.fixed) continue;
+    const PairNumbers wanted = numbers_at_wall(cluster.bodies[i], record, rules);
+    const PairLaw& pair = cluster.pairs[pair_numbers(wanted, rules, cluster)].law;
+    const double k = first_stiffness(rules.wall, pair, vec(cluster.bodies[i].v).norm(), record.load_size, pair.allowed);
+    step = std::min(step, allowed_step(rules.wall_springs, pair, k));
+  }
+  return step;
 }
 
 double time_of_flight(double horizon, const Cluster& cluster) {

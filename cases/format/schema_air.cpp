@@ -195,6 +195,7 @@ void describe(Fields& io, Numerics& n, AirModel air) {
   if (!(n.scalar_cfl < 1.0)) io.problem("scalar_cfl", "a step of the transport takes less than a cell's air: below 1");
   io.section("skip", [&](Fields& f) {
     f.flag("sleeping_carriers", n.skip.sleeping_carriers, otherwise(true));
+    f.flag("free_flight", n.skip.free_flight, otherwise(true));
     f.flag("resting_exchange", n.skip.resting_exchange, otherwise(true));
     f.flag("idle_transport", n.skip.idle_transport, otherwise(true));
     f.flag("empty_cells", n.skip.empty_cells, otherwise(true));

@@ -46,6 +46,8 @@ void add_skipped_work(const cases::Case& c, std::vector<Part>& parts) {
   if (c.carriers) {
     unless("sleeping_carriers", c.numerics.skip.sleeping_carriers, "steps of sleeping carriers",
            "carriers at rest are not moved until something disturbs them");
+    unless("free_flight", c.numerics.skip.free_flight, "contact steps of carriers in free flight",
+           "what touches nothing is moved in closed form");
     if (lattice)
       unless("resting_exchange", c.numerics.skip.resting_exchange, "exchanges with the air while every carrier sleeps",
              "then there are fewer of them");
