@@ -11,6 +11,7 @@
 #include "tools/puffin/console.hpp"
 #include "tools/puffin/exit_codes.hpp"
 #include "tools/puffin/rehearsal.hpp"
+#include "tools/puffin/signals.hpp"
 
 namespace puffin::tools {
 namespace {
@@ -24,6 +25,7 @@ int estimate(const CaseArguments& a) {
     throw ResourceError("the case needs about " + as_bytes(assessment.memory) + "; " + as_bytes(available) +
                         " are free: raise numerics.dx");
   const Rehearsal rehearsal = rehearse(c, rehearsed_seconds);
+  if (const int code = Signals::code(); code != ok) return code;  // interrupted: nothing is known
   assessment.memory = rehearsal.memory;
   const bool counted =  // the steps of the ramp
       !rehearsal.ended && assessment.lattice && c.air.model == cases::AirModel::lbm;

@@ -100,7 +100,12 @@ void take(const ParetoTrial& t, const cases::ParetoCase& c, double reference_unc
   row.steps = t.steps;
   row.cell_updates = t.cell_updates;
   row.memory_peak = t.memory_peak;
-  if (t.outcome != "ok") return;
+  if (t.outcome != "ok") {  // what an earlier repeat found is not what this setting can
+    for (double* number : {&row.value, &row.value_spread, &row.value_half_width, &row.reference,
+                           &row.reference_uncertainty, &row.error, &row.error_half_width})
+      *number = not_known;
+    return;
+  }
   row.value = t.value;
   row.value_spread = t.value_spread;
   row.value_half_width = t.half_width;
