@@ -133,6 +133,7 @@ void follow_air(const Models& models, const Interval& interval, double until, St
     s.first_motion.update(s.carriers.carriers, s.time + interval.seconds);
     count_collisions(s.events.begun, s.carriers.carriers, counted_from(models, s), s.collisions);
     if (computes_air(models, s) && models.two_way) {
+      s.exchange_seconds = interval.seconds;
       s.impulse_on_air.resize(s.carriers.carriers.size());
       for (std::size_t p = 0; p < s.impulse_on_air.size(); ++p) s.impulse_on_air[p] = -s.carriers.drag_impulse[p];
       add_field_reaction(interval.seconds, s);

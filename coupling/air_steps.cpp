@@ -71,7 +71,7 @@ void give_reaction(double interval, State& s) {
     s.stencils.mark_runs(s.cells, s.touched);
     s.forced = s.stencils.cells();  // the stencils are built anew for this interval
   }
-  if (!s.pores.cells.empty()) share_force(s);
+  if (!s.pores.cells.empty()) share_force(s.pores, s.air->force);
   flag_runs(s.touched, lbm::run_forced, *s.air);
 }
 

@@ -47,10 +47,9 @@ void follow_volume(const Models& models, int steps, State& s) {
   lbm::set_shared(slots, change, *s.air, pores);
 }
 
-void share_force(State& s) {
-  lbm::BodyForce& force = s.air->force;
-  for (const std::int32_t slot : s.pores.cells) {
-    const float by = static_cast<float>(1.0 / s.pores.share[slot]);
+void share_force(const lbm::PoreSpace& pores, lbm::BodyForce& force) {
+  for (const std::int32_t slot : pores.cells) {
+    const float by = static_cast<float>(1.0 / pores.share[slot]);
     force.x[slot] *= by, force.y[slot] *= by, force.z[slot] *= by;
   }
 }

@@ -20,7 +20,7 @@ inline constexpr int ramp_steps = 20;
 void follow_volume(const Models& models, int steps, State& state);
 
 /// The force that was spread is one per volume of cell; per volume of air it is larger by 1/alpha.
-void share_force(State& state);
+void share_force(const lbm::PoreSpace& pores, lbm::BodyForce& force);
 
 /// Least alpha of all cells.
 double least_share(const lbm::PoreSpace& pores);

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "coupling/air_steps.hpp"
+#include "coupling/averaged.hpp"
 #include "coupling/divergence.hpp"
 #include "coupling/stopwatch.hpp"
 #include "lbm/eddy_diffusion.hpp"
@@ -30,6 +31,17 @@ Draught strongest_draught(const lbm::Rows& rows, const lbm::FaceFluxes& fluxes) 
         if (part > worst.part) worst = {rows.centre(slot), part};
       }
   return worst;
+}
+
+/// What the carriers did to the air in the last exchange, per volume of air; empty: nothing. Not the force that lay in
+/// the cells: it is what the exchange before gathered, and in an exchange that an output cuts short many times that.
+lbm::BodyForce reaction(State& s) {
+  lbm::BodyForce force;
+  if (s.impulse_on_air.empty() || !(s.exchange_seconds > 0.0)) return force;
+  for (auto* component : {&force.x, &force.y, &force.z}) component->assign(s.air->rows.slots(), 0.0F);
+  s.spreader.spread(s.stencils, s.impulse_on_air, s.exchange_seconds, s.scale, force);
+  share_force(s.pores, force);
+  return force;
 }
 
 }  // namespace
@@ -111,7 +123,9 @@ void carry_fines(const Models& models, bool now, State& s) {
       lbm::find_eddy_diffusion(*s.air, s.scale.relaxation_time(models.air.viscosity / models.air.density),
                                models.turbulent_schmidt, s.fluxes);
     if (models.drift) {
-      update_drift(s.air->rows, s.fluxes, s.scale, *models.drift,
+      const lbm::BodyForce carriers = reaction(s);
+      const ForceOnAir force{s.drive.uniform_force, carriers.x.empty() ? nullptr : &carriers};
+      update_drift(s.air->rows, s.fluxes, force, s.scale, *models.drift,
                    static_cast<double>(s.steps_since_scalars) * s.scale.dt, s.fines_drift);
       add_drift(s.air->rows, s.routes, s.scale, *models.drift, s.fines_drift, s.fluxes);
     }

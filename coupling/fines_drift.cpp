@@ -124,26 +124,37 @@ std::vector<FinesDrift::WallCell> find_wall_cells(const lbm::Rows& rows, const l
   return cells;
 }
 
-void update_drift(const lbm::Rows& rows, const lbm::FaceFluxes& fluxes, const Scale& scale, const FinesDrift& drift,
-                  double seconds, DriftVelocity& velocity) {
+void update_drift(const lbm::Rows& rows, const lbm::FaceFluxes& fluxes, const ForceOnAir& force, const Scale& scale,
+                  const FinesDrift& drift, double seconds, DriftVelocity& velocity) {
   size_for(rows, velocity);
   const double blend = -std::expm1(-seconds / drift.response_time);
   const double per_difference = scale.pressure_unit() / (3.0 * scale.density * scale.dx);  // [m/s^2] per lattice unit
   std::vector<double> density = fluxes.density;
   mirror(rows, density);
-  std::vector<double> up(rows.slots()), down(rows.slots());  // rise of the density through the high and the low face
+  // Rise of the density through the high and the low face, less three times the force there: pressure is a third of it.
+  std::vector<double> up(rows.slots()), down(rows.slots());
+  std::vector<double> pushed(rows.slots(), 0.0);
   for (int d = 0; d < 3; ++d) {
     const auto& open = fluxes.open[d];
+    if (force.carriers != nullptr) {
+      const auto& given = d == 0 ? force.carriers->x : d == 1 ? force.carriers->y : force.carriers->z;
+      for_each_cell(rows, [&](std::ptrdiff_t s, const lbm::Run&) { pushed[s] = given[s]; });
+      mirror(rows, pushed);
+    }
+    const double everywhere = 3.0 * force.everywhere[d];
+    const auto rise_between = [&](std::ptrdiff_t below, std::ptrdiff_t above) {
+      return density[above] - density[below] - 1.5 * (pushed[above] + pushed[below]) - everywhere;
+    };
     for_each_cell(rows, [&](std::ptrdiff_t s, const lbm::Run& run) {
       const std::ptrdiff_t low = s + lbm::offset_low(run, d), high = s + lbm::offset_high(run, d);
-      up[s] = open[s] == 1 ? density[high] - density[s] : no_rise;
-      down[s] = open[low] == 1 ? density[s] - density[low] : no_rise;
+      up[s] = open[s] == 1 ? rise_between(s, high) : no_rise;
+      down[s] = open[low] == 1 ? rise_between(low, s) : no_rise;
     });
     mirror(rows, up);
     mirror(rows, down);
     for_each_cell(rows, [&](std::ptrdiff_t s, const lbm::Run& run) {
       const bool above = up[s] != no_rise, below = down[s] != no_rise;
-      double rise = 0.0;  // of the density over one cell
+      double rise = 0.0;  // over one cell
       if (above && below) {
         rise = 0.5 * (up[s] + down[s]);
       } else if (above) {  // a wall below: the rise one face further inside, if there is one

@@ -10,6 +10,7 @@
 #include "coupling/scale.hpp"
 #include "lbm/geometry/triangle_tree.hpp"
 #include "lbm/mass_fluxes.hpp"
+#include "lbm/moments.hpp"
 #include "lbm/rows.hpp"
 
 namespace puffin::coupling {
@@ -22,8 +23,9 @@ double response_time(double diameter, double density, double viscosity);
 /// Source: J. Ferry & S. Balachandar, Int. J. Multiph. Flow 27, 1199 (2001). Valid for Stokes numbers (tau over the
 /// time in which the air turns) below about 0.2: the errors beyond have not been measured.
 ///
-/// On the lattice Du/Dt is taken as -grad p/rho, which differs by the viscous force alone. The drift follows its cause
-/// with the delay tau, so that sound does not move the fines.
+/// On the lattice Du/Dt is taken as (-grad p + f)/rho, f being the force of carriers on the air and the body force: it
+/// differs by the viscous force alone. The drift follows its cause with the delay tau, so that sound does not move the
+/// fines.
 struct FinesDrift {
   double response_time = 0.0;                         // tau [s]
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  // [m/s^2]
@@ -55,12 +57,19 @@ std::vector<FinesDrift::WallCell> find_wall_cells(const lbm::Rows& rows, const l
                                                   const lbm::geometry::TriangleTree& tree,
                                                   const std::vector<char>& opening);
 
-/// The drift `seconds` later: v <- v + (1 - exp(-seconds/tau)) (tau (grad p/rho + g) - v), from the lattice's density.
-/// A cell beside a closed face takes the gradient one face further inside: its own density carries the steps of a
-/// staircase of cells, of some per cent of the dynamic pressure.
+/// What pushes the air beside its pressure and its walls, per volume of air in lattice units.
+struct ForceOnAir {
+  std::array<double, 3> everywhere{0, 0, 0};
+  const lbm::BodyForce* carriers = nullptr;  // null: none
+};
+
+/// The drift `seconds` later: v <- v + (1 - exp(-seconds/tau)) (tau ((grad p - f)/rho + g) - v), from the lattice's
+/// density, with f halfway between the cells as the gradient is: a force that pressure balances moves nothing.
+/// A cell beside a closed face takes gradient and force one face further inside: its own density carries the steps of
+/// a staircase of cells, of some per cent of the dynamic pressure.
 /// An empty `velocity` starts at rest.
-void update_drift(const lbm::Rows& rows, const lbm::FaceFluxes& fluxes, const Scale& scale, const FinesDrift& drift,
-                  double seconds, DriftVelocity& velocity);
+void update_drift(const lbm::Rows& rows, const lbm::FaceFluxes& fluxes, const ForceOnAir& force, const Scale& scale,
+                  const FinesDrift& drift, double seconds, DriftVelocity& velocity);
 
 /// The drift in a frozen field: tau (g - (u . grad) u), by central differences over half a cell.
 void set_frozen_drift(const lbm::Rows& rows, const std::function<Eigen::Vector3d(const Eigen::Vector3d&)>& air,

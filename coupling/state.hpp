@@ -138,6 +138,7 @@ struct State {
   AirGradients gradients;  // only where a model needs them
   Spreader spreader;
   std::vector<Vec3> impulse_on_air;  // [N s] by place in `stencils`, to be given to the air in the next exchange
+  double exchange_seconds = 0.0;     // [s] in which the carriers gathered it, the last exchange
   MomentumBooking momentum;          // sums since the start [N s]
   std::vector<dem::Load> loads;
   lbm::PoreSpace pores;               // of VolumeFraction::averaged
@@ -149,7 +150,6 @@ struct State {
   lbm::FaceFluxes fluxes;
   lbm::FluxRoutes routes;
   std::int64_t steps_since_scalars = 0;
-  double seconds_since_scalars = 0.0;
   double steps_per_scalar_update = 1.0;
   bool airborne = false;      // enough fines have been released to carry them
   DriftVelocity fines_drift;  // empty without Models::drift

@@ -72,12 +72,12 @@ namespace {
 void time_fields(auto& archive, Is<State> auto& state) {
   auto& [time, scale, step_factor, air, air_mass, drive, inlet_way, cells, touched, carriers, fines, collisions,
          first_motion, departures, events, stencils, stencils_at, forced, samples, gradients, spreader, impulse_on_air,
-         momentum, loads, pores, pressure_forces, release, scalars, budget, fluxes, routes, steps_since_scalars,
-         seconds_since_scalars, steps_per_scalar_update, airborne, fines_drift, effort, extremes] = state;
+         exchange_seconds, momentum, loads, pores, pressure_forces, release, scalars, budget, fluxes, routes,
+         steps_since_scalars, steps_per_scalar_update, airborne, fines_drift, effort, extremes] = state;
   // Of the drive, what the fines read that are carried before the next air step, if the time step changes there.
-  archive(time, scale.dt, step_factor, air_mass, drive.speed, inlet_way, collisions, departures, pores.share,
-          stencils_at.position, stencils_at.radius, impulse_on_air, momentum, steps_since_scalars,
-          seconds_since_scalars, steps_per_scalar_update, airborne, fines_drift, effort, extremes);
+  archive(time, scale.dt, step_factor, air_mass, drive.speed, drive.uniform_force, inlet_way, collisions, departures,
+          pores.share, stencils_at.position, stencils_at.radius, impulse_on_air, exchange_seconds, momentum,
+          steps_since_scalars, steps_per_scalar_update, airborne, fines_drift, effort, extremes);
 }
 
 /// The lattice belongs to the case; of the air only what moves. What walls keep of their cells they find again from the

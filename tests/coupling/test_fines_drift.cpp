@@ -87,11 +87,51 @@ TEST(FinesDrift, approaches_the_pressure_gradient_with_its_delay) {
   FinesDrift drift;
   drift.response_time = 2e-5;
   DriftVelocity v;
-  for (int n = 0; n < 10; ++n) update_drift(rows, f, scale, drift, 3e-6, v);
+  for (int n = 0; n < 10; ++n) update_drift(rows, f, {}, scale, drift, 3e-6, v);
   const auto s = static_cast<std::size_t>(rows.active_slot(0, 3, 3));  // beside a wall: one-sided, exact for this field
   // The density in the denominator is at most 1 + 3e-4 there.
   EXPECT_NEAR(v[0][s] / (2e-5 * gradient / 1.2 * -std::expm1(-1.5)), 1.0, 5e-4);
   EXPECT_NEAR(v[1][s], 0.0, 1e-12);
+}
+
+TEST(FinesDrift, stays_at_rest_where_pressure_holds_the_forces) {
+  // A body force and that of carriers on two layers of cells, which the density answers through each face: the air does
+  // not turn, so nothing drifts, beside the walls either. To rounding of the densities, some 1e-16 of 1.
+  const auto rows = full_box({12, 6, 6}, 1e-4);
+  lbm::FaceFluxes f = still_air(rows);
+  lbm::BodyForce carriers;
+  for (auto* v : {&carriers.x, &carriers.y, &carriers.z}) v->assign(rows.slots(), 0.0F);
+  const double everywhere = 1e-4, on_carriers = 0.0078125;  // as floats
+  const auto force = [&](int i) { return everywhere + (i == 4 || i == 5 ? on_carriers : 0.0); };
+  for (int j = 0; j < 6; ++j)
+    for (int k = 0; k < 6; ++k) {
+      double density = 1.0;
+      for (int i = 0; i < 12; ++i) {
+        if (i > 0) density += 1.5 * (force(i - 1) + force(i));
+        f.density[rows.active_slot(i, j, k)] = density;
+        carriers.x[rows.active_slot(i, j, k)] = static_cast<float>(force(i) - everywhere);
+      }
+    }
+  const Scale scale{1e-4, 1e-6, 1.2};
+  FinesDrift drift;
+  drift.response_time = 2e-5;
+  DriftVelocity v;
+  update_drift(rows, f, {{everywhere, 0, 0}, &carriers}, scale, drift, 1e-3, v);
+  const double of_the_force = 2e-5 * on_carriers * 1e-4 / 1e-12;  // tau f/rho [m/s]
+  for (int i = 0; i < 12; ++i) EXPECT_NEAR(v[0][rows.active_slot(i, 3, 3)], 0.0, 1e-12 * of_the_force) << i;
+}
+
+TEST(FinesDrift, lags_behind_air_that_a_force_speeds_up) {
+  // Without a pressure the air gains f/rho, and the fines are tau f/rho behind it.
+  const auto rows = full_box({12, 6, 6}, 1e-4);
+  const lbm::FaceFluxes f = still_air(rows);
+  FinesDrift drift;
+  drift.response_time = 2e-5;
+  DriftVelocity v;
+  const double acceleration = 300.0;  // [m/s^2]
+  const Scale scale{1e-4, 1e-6, 1.2};
+  update_drift(rows, f, {{0, scale.acceleration_lu(acceleration), 0}, nullptr}, scale, drift, 1e-3, v);
+  EXPECT_NEAR(v[1][rows.active_slot(0, 3, 3)] / (-2e-5 * acceleration), 1.0, 1e-12);
 }
 
 TEST(FinesDrift, beside_a_wall_is_that_of_the_cells_inside) {
@@ -103,7 +143,7 @@ TEST(FinesDrift, beside_a_wall_is_that_of_the_cells_inside) {
   FinesDrift drift;
   drift.response_time = 2e-5;
   DriftVelocity v;
-  update_drift(rows, f, Scale{1e-4, 1e-6, 1.2}, drift, 1e-3, v);
+  update_drift(rows, f, {}, Scale{1e-4, 1e-6, 1.2}, drift, 1e-3, v);
   EXPECT_EQ(v[0][rows.active_slot(0, 3, 3)], 0.0);
   EXPECT_LT(v[0][rows.active_slot(1, 3, 3)], 0.0);  // the cell behind feels the step
 }
@@ -131,7 +171,7 @@ TEST(FinesDrift, a_cloud_settles_at_tau_g_and_walls_that_hold_it_off_keep_it) {
   drift.response_time = 1e-5;
   drift.gravity = {0, 0, -98.1};  // settles at 9.81e-4 m/s: 0.00981 cells a step
   DriftVelocity v;
-  for (int n = 0; n < 40; ++n) update_drift(rows, f, scale, drift, 1e-5, v);
+  for (int n = 0; n < 40; ++n) update_drift(rows, f, {}, scale, drift, 1e-5, v);
   lbm::FluxRoutes routes;
   add_drift(rows, routes, scale, drift, v, f);
   EXPECT_TRUE(f.sinks.empty());
@@ -168,7 +208,7 @@ TEST(FinesDrift, settling_against_diffusion_ends_as_exp_of_minus_w_z_over_D) {
   drift.gravity = {0, 0, -98.1};  // 0.00981 cells a step
   lbm::FaceFluxes f = still_air(rows);
   DriftVelocity v;
-  for (int n = 0; n < 40; ++n) update_drift(rows, f, scale, drift, 1e-5, v);
+  for (int n = 0; n < 40; ++n) update_drift(rows, f, {}, scale, drift, 1e-5, v);
   add_drift(rows, {}, scale, drift, v, f);
   lbm::ScalarOptions options;
   options.scalar.resize(1);
@@ -198,7 +238,7 @@ TEST(FinesDrift, deposits_on_the_floor_what_settles_there_and_the_map_adds_up) {
   drift.walls = box.walls;
   DriftVelocity v;
   lbm::FaceFluxes f = box.fluxes;
-  for (int n = 0; n < 40; ++n) update_drift(box.rows, f, scale, drift, 1e-5, v);
+  for (int n = 0; n < 40; ++n) update_drift(box.rows, f, {}, scale, drift, 1e-5, v);
   add_drift(box.rows, {}, scale, drift, v, f);
   lbm::ScalarFields fields(box.rows, mechanisms);
   lbm::ScalarBudget budget(box.rows, mechanisms, 1);
