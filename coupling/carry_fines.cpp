@@ -118,17 +118,17 @@ void carry_fines(const Models& models, bool now, State& s) {
     options.scalar[k].diffusivity = s.scale.viscosity_lu(models.diffusion[k]);
   if (computes_air(models, s)) {  // a frozen field's stay
     lbm::find_mass_fluxes(*s.air, s.routes, lbm::wall_speed(s.drive, *s.air), s.fluxes);
-    if (!s.pores.cells.empty()) lbm::share_fluxes(*s.air, s.pores, s.routes, s.fluxes);
-    if (models.turbulent_schmidt > 0.0)
-      lbm::find_eddy_diffusion(*s.air, s.scale.relaxation_time(models.air.viscosity / models.air.density),
-                               models.turbulent_schmidt, s.fluxes);
-    if (models.drift) {
+    if (models.drift) {  // by the pressure: the density of the air, before it is that of the part of a cell that is air
       const lbm::BodyForce carriers = reaction(s);
       const ForceOnAir force{s.drive.uniform_force, carriers.x.empty() ? nullptr : &carriers};
       update_drift(s.air->rows, s.fluxes, force, s.scale, *models.drift,
                    static_cast<double>(s.steps_since_scalars) * s.scale.dt, s.fines_drift);
-      add_drift(s.air->rows, s.routes, s.scale, *models.drift, s.fines_drift, s.fluxes);
     }
+    if (!s.pores.cells.empty()) lbm::share_fluxes(*s.air, s.pores, s.routes, s.fluxes);
+    if (models.turbulent_schmidt > 0.0)
+      lbm::find_eddy_diffusion(*s.air, s.scale.relaxation_time(models.air.viscosity / models.air.density),
+                               models.turbulent_schmidt, s.fluxes);
+    if (models.drift) add_drift(s.air->rows, s.routes, s.scale, *models.drift, s.fines_drift, s.fluxes);
   }
   try {
     const lbm::StepsAllowed allowed = lbm::advance_scalars(
