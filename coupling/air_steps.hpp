@@ -11,6 +11,12 @@ namespace puffin::coupling {
 /// Whether the lattice computes the air. A frozen field may have cells too: the fines need them.
 inline bool computes_air(const Models& models, const State& s) { return s.air && !models.frozen_air; }
 
+/// The step in whose units the cells hold velocities and fluxes [s]: of a frozen field that it was laid out with, even
+/// if a retreat has shortened the steps since.
+inline double step_of_cells(const Models& models, const State& s) {
+  return computes_air(models, s) || !s.air ? s.scale.dt : models.time_step.reference_dt;
+}
+
 /// The carriers' reaction of the last interval becomes a force in the cells during `interval` [s].
 void give_reaction(double interval, State& s);
 

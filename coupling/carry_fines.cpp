@@ -114,8 +114,12 @@ void carry_fines(const Models& models, bool now, State& s) {
     return;
   const Stopwatch watch(s.effort.scalars);
   lbm::ScalarOptions options = models.scalars;
+  // In the steps of the fluxes, of which a retreat makes several out of one in a frozen field.
+  Scale of_fluxes = s.scale;
+  of_fluxes.dt = step_of_cells(models, s);
+  const double part = s.scale.dt / of_fluxes.dt;
   for (std::size_t k = 0; k < options.scalar.size(); ++k)
-    options.scalar[k].diffusivity = s.scale.viscosity_lu(models.diffusion[k]);
+    options.scalar[k].diffusivity = of_fluxes.viscosity_lu(models.diffusion[k]);
   if (computes_air(models, s)) {  // a frozen field's stay
     lbm::find_mass_fluxes(*s.air, s.routes, lbm::wall_speed(s.drive, *s.air), s.fluxes);
     if (models.drift) {  // by the pressure: the density of the air, before it is that of the part of a cell that is air
@@ -132,9 +136,10 @@ void carry_fines(const Models& models, bool now, State& s) {
   }
   try {
     const lbm::StepsAllowed allowed = lbm::advance_scalars(
-        s.air->rows, s.fluxes, static_cast<double>(s.steps_since_scalars), options, s.scalars, s.budget);
+        s.air->rows, s.fluxes, part * static_cast<double>(s.steps_since_scalars), options, s.scalars, s.budget);
     s.steps_per_scalar_update =
-        models.transport_steps ? steps_per_update(allowed, steps_diffusion_follows(options), models.steps_per_exchange)
+        models.transport_steps ? steps_per_update({allowed.single / part, allowed.pair / part},
+                                                  steps_diffusion_follows(options) / part, models.steps_per_exchange)
                                : 1.0;
   } catch (const std::runtime_error& e) {
     const Draught worst = strongest_draught(s.air->rows, s.fluxes);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "coupling/air_steps.hpp"
 #include "lbm/plane_flux.hpp"
 #include "lbm/wall_force.hpp"
 
@@ -14,6 +15,9 @@ namespace puffin::tools {
 namespace {
 
 using coupling::Vec3;
+
+/// Speed of one cell a step, as the cells hold it [m/s].
+double speed_unit(const cases::Simulation& s) { return s.dx / coupling::step_of_cells(s.models, s.state); }
 
 double total_pressure(const cases::Simulation& s, const PointReading& r) {
   return r.pressure + 0.5 * s.models.air.density * r.velocity.squaredNorm();
@@ -24,7 +28,7 @@ double total_pressure(const cases::Simulation& s, const PointReading& r) {
 PointReading read_cell(const cases::Simulation& s, std::ptrdiff_t slot) {
   const auto m = lbm::moments_at(*s.state.air, slot);
   PointReading reading;
-  reading.velocity = s.state.scale.speed() * Vec3(m.ux, m.uy, m.uz);
+  reading.velocity = speed_unit(s) * Vec3(m.ux, m.uy, m.uz);
   if (s.models.body_force)
     reading.velocity += 0.5 * s.state.scale.dt / s.models.air.density * s.models.body_force(s.state.time);
   reading.pressure = s.state.scale.pressure(m.density_excess);
@@ -135,7 +139,7 @@ Totals read_totals(const cases::Simulation& s) {
         [](const Sums& a, const Sums& b) {
           return Sums{a.energy + b.energy, a.momentum + b.momentum};
         });
-    const double speed = s.state.scale.speed(), dx = s.state.air->rows.dx();
+    const double speed = speed_unit(s), dx = s.state.air->rows.dx();
     totals.kinetic_energy = sums.energy * speed * speed / static_cast<double>(s.state.air->fluid_cells);
     totals.air_momentum = sums.momentum * (speed * s.models.air.density * dx * dx * dx);
     for (const Vec3& impulse : s.state.impulse_on_air) totals.air_momentum += impulse;
@@ -206,11 +210,11 @@ double flow_of_cells(const cases::Simulation& s, int axis, int index) {
 /// faces of cells on both sides; beyond the outermost faces theirs. Empty: there are none.
 std::optional<double> flow_through(const cases::Simulation& s, int axis, double place) {
   const int below = static_cast<int>(std::floor(place - 0.5));
-  const double part = place - 0.5 - below, unit = s.state.scale.speed() * s.dx * s.dx;
+  const double part = place - 0.5 - below, unit = speed_unit(s) * s.dx * s.dx;
   double wall_speed = 0.0;
   for (std::size_t p = 0; p < s.models.patches.size(); ++p)
     if (s.state.air->boundaries[p].kind == lbm::BoundaryKind::wall && s.models.patches[p].speed)
-      wall_speed = s.models.patches[p].speed(s.state.time) / s.state.scale.speed();
+      wall_speed = s.models.patches[p].speed(s.state.time) / speed_unit(s);
   const auto flux = [&](int index) { return lbm::plane_flux(*s.state.air, wall_speed, axis, index); };
   const lbm::PlaneFlux low = flux(below);
   const lbm::PlaneFlux high = part > 0.0 || low.links == 0 ? flux(below + 1) : low;
