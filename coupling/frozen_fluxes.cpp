@@ -13,8 +13,8 @@ void set_frozen_fluxes(const lbm::Rows& rows, const lbm::FluxRoutes& routes, con
     for (std::size_t n = 0; n < rows.slots(); ++n) {
       const auto slot = static_cast<std::ptrdiff_t>(n);
       const bool stored = rows.is_active(slot) || rows.is_ghost(slot);
-      fluxes.mass[d][n] =
-          stored && fluxes.open[d][n] != 0 ? scale.velocity_lu(velocity(rows.centre(slot) + to_face)[d]) : 0.0;
+      const bool passes = fluxes.open[d][n] == 1 || fluxes.open[d][n] == 2;
+      fluxes.mass[d][n] = stored && passes ? scale.velocity_lu(velocity(rows.centre(slot) + to_face)[d]) : 0.0;
     }
     for (const auto& image : routes.images) fluxes.mass[d][image.ghost] = fluxes.mass[d][image.active];
   }

@@ -114,6 +114,16 @@ FluxRoutes find_routes(const Air& air, FaceFluxes& fluxes) {
       routes.openings.push_back(
           {link.slot, link.run, link.direction, static_cast<std::int8_t>(axis), static_cast<std::int8_t>(sign), face});
     }
+  // What of the cells' sides lies in an oblique opening and takes no flux: there is no wall.
+  for (const auto* list : {&air.links.inlets, &air.links.outlets})
+    for (const auto& link : *list) {
+      if (link.direction > 6) continue;
+      const int axis = (link.direction - 1) / 2;
+      const bool high = link.direction % 2 == 1;
+      const std::ptrdiff_t face =
+          high ? link.slot : link.slot + neighbour_offset(rows.runs()[link.run], link.direction);
+      if (fluxes.open[axis][face] == 0) fluxes.open[axis][face] = passed_over;
+    }
   for (const SlipLink& link : air.links.slip) {
     if (link.source == link.slot) continue;
     // The part of the velocity that the wall leaves as it is.

@@ -42,7 +42,7 @@ struct FluxRoutes {
   BandFluxes band;           // of a wall with markers
 };
 
-/// Finds the routes and marks which faces are open; sizes all arrays of `fluxes`.
+/// Finds the routes and marks which faces are open, and which are passed over; sizes all arrays of `fluxes`.
 FluxRoutes find_routes(const Air& air, FaceFluxes& fluxes);
 
 /// Fluxes of the last step and the density after it. wall_speed: of the walls that moved in it [lattice units].

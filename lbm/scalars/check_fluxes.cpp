@@ -41,8 +41,9 @@ void check_fluxes(const Rows& rows, const FaceFluxes& fluxes, const ScalarWork& 
           const std::ptrdiff_t beside = s + (high ? offset_high(run, d) : offset_low(run, d));
           const std::ptrdiff_t face = high ? s : beside;
           const auto open = fluxes.open[d][face];
-          if (open > 2) refuse(rows, s, d, "open must be 0, 1 or 2");
-          if (open == 0 || rows.is_active(beside)) continue;
+          if (open > 2 && open != passed_over) refuse(rows, s, d, "open must be 0, 1, 2 or passed_over");
+          if (open == passed_over && fluxes.mass[d][face] != 0.0) refuse(rows, s, d, "a face passed over has a flux");
+          if (open == 0 || open == passed_over || rows.is_active(beside)) continue;
           if (!std::isfinite(fluxes.mass[d][face])) refuse(rows, s, d, "the mass flux is not a number");
           if (open == 2 && work.opening_patch[beside] < 0) refuse(rows, s, d, "an opening without a patch");
           const auto c = rows.cell(beside);

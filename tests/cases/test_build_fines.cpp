@@ -4,9 +4,11 @@
 
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <string>
 
 #include "coupling/checkpoint/checkpoint.hpp"
+#include "lbm/scalars/run_faces.hpp"
 #include "tests/cases/fines_scene.hpp"
 
 namespace puffin::cases {
@@ -194,6 +196,68 @@ TEST(FrozenAir, CarriesAsFarInShorterSteps) {
   advance_to(*resumed, 0.3e-3);
   EXPECT_EQ(resumed->state.scalars.amount, cut->state.scalars.amount);
   EXPECT_EQ(resumed->state.budget.absorbed_at, cut->state.budget.absorbed_at);
+}
+
+// The cells of an oblique outlet have sides that take no flux and are no wall: what absorbs is within reach of one.
+TEST(AbsorbingWalls, EndAtAnObliqueOpening) {
+  const auto s = build(parse_case(R"toml(
+schema = 1
+name = "bend"
+[geometry]
+generator = "bend"
+[geometry.bend]
+width = "7 mm"
+height = "7 mm"
+angle = 0.7853982
+inlet_length = "4 mm"
+outlet_length = "4 mm"
+[air]
+density = "1.204 kg/m^3"
+viscosity = "1.82e-5 Pa s"
+[[air.boundary]]
+patch = "inlet"
+type = "velocity-inlet"
+velocity = "5 m/s"
+[[air.boundary]]
+patch = "outlet"
+type = "pressure-outlet"
+[numerics]
+dx = "0.7 mm"
+[fines]
+[[fines.scalar]]
+name = "one"
+diffusion = "1e-5 kg/(m s)"
+wall = "absorb"
+[[fines.scalar]]
+name = "two"
+diffusion = "1e-3 kg/(m s)"
+wall = "absorb"
+[stop]
+time = "8 ms"
+)toml",
+                                  "bend.toml"));
+  const auto& rows = s->state.air->rows;
+  int passed_over = 0;
+  for (const auto& run : rows.runs())
+    for (std::ptrdiff_t slot = run.first; slot < run.first + run.count; ++slot) {
+      for (auto& amount : s->state.scalars.amount) amount[slot] = 1.0;
+      for (int d = 0; d < 3; ++d)
+        for (const std::ptrdiff_t face : {slot, slot + lbm::offset_low(run, d)}) {
+          passed_over += s->state.fluxes.open[d][face] == lbm::passed_over;
+          if (s->state.fluxes.open[d][face] == 0) {
+            EXPECT_GE(s->models.triangle_of_slot[slot], 0) << slot;
+          }
+        }
+    }
+  EXPECT_GT(passed_over, 50);  // ten cells across and ten along: one of the two sides of each, more or less
+  s->state.airborne = true;
+  for (int n = 0; n < 10; ++n) coupling::advance(s->models, 8e-3, s->state);
+  for (int set = 0; set < 2; ++set) {
+    const auto map = coupling::wall_map(s->state.fines, s->state.budget, set, s->models.triangle_of_slot);
+    const double on_walls = coupling::ledger(s->state.fines, s->state.scalars, s->state.budget, set).on_walls;
+    EXPECT_GT(on_walls, 0.0);
+    EXPECT_NEAR(std::accumulate(map.begin(), map.end(), 0.0), on_walls, 1e-10 * on_walls);
+  }
 }
 
 }  // namespace
