@@ -28,14 +28,15 @@ std::vector<int> patches_of_openings(const lbm::Air& air, const lbm::FluxRoutes&
   return patch;
 }
 
-/// The values that [[fines.boundary]] holds for one scalar, as amounts in a cell full of air, by patch.
-std::vector<std::optional<double>> fixed_values(const Simulation& s, const std::string& scalar) {
+/// What [[fines.boundary]] holds for the scalars of one set, as amounts in a cell full of air, by patch: the value in
+/// the first, and nothing of what comes off carriers in the others, so that their sum is the value.
+std::vector<std::optional<double>> fixed_values(const Simulation& s, const std::string& scalar, bool first) {
   std::vector<std::optional<double>> values;
   for (const ScalarBoundary& b : s.description.fines->boundaries) {
     if (b.scalar != scalar) continue;
     const int patch = s.surface.patches.find(b.patch);
     values.resize(s.models.patches.size());
-    values[static_cast<std::size_t>(patch)] = b.value * std::pow(s.dx, 3);
+    values[static_cast<std::size_t>(patch)] = first ? b.value * std::pow(s.dx, 3) : 0.0;
   }
   return values;
 }
@@ -198,11 +199,11 @@ void build_fines(Simulation& s) {
     const Scalar& scalar = f.scalars[set];
     for (int m = 0; m < coupling::mechanisms; ++m) {
       s.models.scalars.scalar.push_back(law_of(scalar));
+      s.models.scalars.scalar.back().fixed = fixed_values(s, scalar.name, m == 0);
       s.models.diffusion.push_back(scalar.diffusion / s.description.air.density);
     }
     // What no carrier brought goes with the first of the scalars of a set: it is nobody's release.
     const int first = coupling::scalar_index(set, coupling::Mechanism::wall);
-    s.models.scalars.scalar[first].fixed = fixed_values(s, scalar.name);
     if (scalar.initial) {
       place_cloud(*scalar.initial, air, s.state.scalars.amount[first]);
       s.state.fines.placed[set] = lbm::total(s.state.scalars, first);
