@@ -16,8 +16,9 @@ namespace puffin::cases {
 ///   div grad phi = 0,   mean speed over a section = integral of |grad phi| dA / integral of dA,
 /// and with both integrals gathered between phi and phi + d(phi) over volumes, where |grad phi| dA dn = dA d(phi),
 ///   mean speed = sum of V |grad phi|^2 / sum of V |grad phi|.
-/// Solved with finite volumes on at most some 30,000 blocks of b x b x b cells, whose faces are the cells' faces that
-/// are open: a straight duct along the axes is exact, a section of n cells is found to about 1/n.
+/// Solved with finite volumes on at most some 30,000 blocks of b x b x b cells, of which those that walls part inside
+/// are two; between blocks the cells' faces that are open count: a straight duct along the axes is exact, a section of
+/// n cells is found to about 1/n.
 double section_ratio(const Case& c, const Surface& surface, const lbm::geometry::TriangleTree& tree,
                      const lbm::geometry::Voxels& voxels);
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <numbers>
 #include <string>
 
@@ -63,6 +64,25 @@ TEST(SectionSpeed, SeesAnObstacleInTheWay) {
       R"(generator = "obstacle", obstacle = { shape = "cylinder", length = "20 mm", width = "5 mm", height = "0.5 mm", diameter = "2 mm", center = ["8 mm", "2.5 mm", "0.25 mm"] })",
       "0.125 mm", "inlet", "outlet", "[[air.boundary]]\npatch = \"z-min\"\ntype = \"periodic\"\nwith = \"z-max\"\n");
   EXPECT_NEAR(ratio_of(c), 5.0 / 3.0, 5.0 / 3.0 / 12.0);
+}
+
+// There, back and there again through three channels side by side, parted by walls of one cell in blocks of four; half
+// of the middle one is closed for a while: 20 cells' flow through 10. Leaks through the walls would pass it by.
+TEST(SectionSpeed, WallsThinnerThanABlockPartIt) {
+  const Case c = scene(duct, "0.05 mm", "inlet", "outlet");
+  const Surface s = load_surface(c);
+  const lbm::geometry::TriangleTree tree(s.mesh);
+  lbm::geometry::Voxels v = lbm::geometry::voxelize(tree, *c.numerics.dx);
+  const int nx = v.size[0], ny = v.size[1];
+  ASSERT_EQ(ny, 60);
+  v.fill([&](int i, int j, int) {
+    if (j == 20 && i < nx - 80) return false;
+    if (j == 40 && i >= 80) return false;
+    if (i < 4 && j > 20) return false;        // the inlet is the first channel's
+    if (i >= nx - 4 && j < 40) return false;  // the outlet the third's
+    return !(std::abs(i - nx / 2) < 20 && j > 30 && j < 40);
+  });
+  EXPECT_NEAR(section_ratio(c, s, tree, v), 2.0, 2.0 / 10.0);  // of 10 cells, found to one
 }
 
 TEST(SectionSpeed, TheStepIsSizedForItAndFollowsTheInlet) {
