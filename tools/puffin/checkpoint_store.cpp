@@ -76,7 +76,8 @@ std::string identity_of(const cases::Simulation& s) {
   text << "dx = " << output::shortest(s.dx) << '\n';
   text << "time step at the reference speed = " << output::shortest(s.models.time_step.reference_dt) << '\n';
   if (s.models.time_step.follow)
-    text << "largest speed that the time step follows = " << output::shortest(s.models.time_step.reference_speed) << '\n';
+    text << "largest speed that the time step follows = " << output::shortest(s.models.time_step.reference_speed)
+         << '\n';
   std::uint64_t surface = hash_of(s.surface.patches.of_triangle);
   for (const auto& v : s.surface.mesh.vertices)
     surface = coupling::xxh64(std::as_bytes(std::span(v.data(), 3)), surface);
