@@ -129,7 +129,10 @@ void FinesRelease::by_drag(const Stencils& stencils, std::span<const double> sli
                            const dem::Carriers& carriers, const micromodels::FinesModels& models, Fines& fines,
                            lbm::ScalarFields& fields) {
   // What has no finite speed is left to the health check: it has no class, and no law knows it.
-  const auto flies = [&](const Stencil& at) { return at.count > 0 && std::isfinite(slip[at.carrier]); };
+  // One that is held is not there yet.
+  const auto flies = [&](const Stencil& at) {
+    return at.count > 0 && std::isfinite(slip[at.carrier]) && carriers.rest[at.carrier] != dem::Rest::held;
+  };
   for (const Stencil& stencil : stencils.stencils())
     if (flies(stencil)) fines.slip.add(carriers.id[stencil.carrier], slip[stencil.carrier], duration);
   if (!models.drag_detach) return;

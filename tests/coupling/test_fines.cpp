@@ -224,6 +224,18 @@ TEST(FinesRelease, WhatHasNoFiniteSpeedLosesNothingAndTheOthersDo) {
   EXPECT_NEAR(lbm::total(d.fields, scalar_index(1, Mechanism::drag)), 198 * 1.28, 1e-9);
 }
 
+TEST(FinesRelease, WhatIsHeldLosesNothingByDragAndHasNoHistory) {
+  Device d;
+  d.carriers.rest[11] = dem::Rest::held;
+  Stencils stencils;
+  stencils.build(d.cells, d.carriers.position, d.carriers.radius, all(d.carriers.size()));
+  d.release.by_drag(stencils, std::vector<double>(200, 8.0), 1e-3, d.carriers, d.models, d.fines, d.fields);
+  EXPECT_EQ(d.fines.left[11], 20000.0);
+  EXPECT_EQ(d.fines.slip.asked[11], 0.0);
+  for (int k = 0; k < SlipHistory::classes; ++k) EXPECT_EQ(d.fines.slip.seconds[11 * SlipHistory::classes + k], 0.0);
+  EXPECT_NEAR(lbm::total(d.fields, scalar_index(1, Mechanism::drag)), 199 * 1.28, 1e-9);
+}
+
 TEST(FinesRelease, IsTheSameForOneAndTwoThreads) {
   std::array<Device, 2> d;
   for (int n = 0; n < 2; ++n) {
