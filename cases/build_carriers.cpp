@@ -151,6 +151,13 @@ void build_carriers(Simulation& s) {
       (c.drag == Drag::di_felice || c.drag == Drag::beetstra || c.volume_fraction == VolumeFraction::averaged))
     s.warnings.push_back(
         "carriers.volume_fraction: in frozen air every carrier is dragged as one alone, whatever lies beside it");
+  if (!c.two_way && m.volume_fraction == coupling::VolumeFraction::averaged &&
+      s.description.air.model == AirModel::lbm) {
+    m.volume_fraction = coupling::VolumeFraction::in_drag;
+    s.warnings.push_back(
+        "carriers.volume_fraction = \"averaged\" needs carriers.two_way = true: without it the air does not know the "
+        "carriers, whose volume counts in the drag law alone, as with \"drag\"");
+  }
   const Numerics& n = s.description.numerics;
   // A frozen field costs nothing to read: the loads are renewed every step.
   const bool read_anew = s.description.air.model == AirModel::frozen && !s.description.fines &&

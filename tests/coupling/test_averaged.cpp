@@ -142,13 +142,14 @@ TEST(Averaged, APackedBedStaysStable) {
   EXPECT_LT(s.extremes.max_speed_lu * s.scale.speed(), 1.04);
 }
 
-// What carriers are told of the air is the mean of an interval's last two steps; of one step, that step. The same air
-// goes on in four single steps and in one interval of four: its bits are the same, so is the mean in float.
+// What carriers are told of the air is the mean of an interval's last two steps; without reaction it is the last. The
+// same air goes on in four single steps and in one interval of four: its bits are the same, so is the mean in float.
 TEST(Averaged, CarriersFeelTheMeanOfTheLastTwoSteps) {
   const auto [a, b] = twins();
   coupling::advance(a->models, 3e-3, a->state);  // makes what a checkpoint leaves out
   coupling::advance(b->models, 3e-3, b->state);
   ASSERT_FALSE(a->state.pores.cells.empty());
+  a->models.two_way = false;
   lbm::Moments third;
   for (int n = 0; n < 4; ++n) {
     coupling::step_air(a->models, 1, 1.0, {}, a->state);
@@ -175,6 +176,18 @@ TEST(Averaged, GoesOnBitForBitFromACheckpoint) {
   EXPECT_EQ(a->state.pores.share, b->state.pores.share);
   for (std::size_t p = 0; p < a->state.carriers.carriers.size(); ++p)
     EXPECT_EQ(a->state.carriers.carriers.velocity[p], b->state.carriers.carriers.velocity[p]);
+}
+
+// Without the reaction the air does not know the carriers' volume: -V grad p alone would be half of a law.
+TEST(Averaged, WithoutTheReactionTheVolumeCountsInTheDragAloneAndAWarningSaysSo) {
+  std::string text = cloud("averaged", 2, 0.2);
+  text.replace(text.find("[carriers]"), 10, "[carriers]\ntwo_way = false");
+  const auto sim = build(parse_case(text, "cloud.toml"));
+  EXPECT_EQ(sim->models.volume_fraction, coupling::VolumeFraction::in_drag);
+  ASSERT_FALSE(sim->warnings.empty());
+  EXPECT_NE(sim->warnings.back().find("two_way"), std::string::npos) << sim->warnings.back();
+  EXPECT_EQ(build(parse_case(cloud("averaged", 2, 0.2), "cloud.toml"))->models.volume_fraction,
+            coupling::VolumeFraction::averaged);
 }
 
 }  // namespace puffin::cases
