@@ -8,6 +8,7 @@ set(PUFFIN_COUPLING_SOURCES
   checkpoint/hash.cpp
   checkpoint/state.cpp
   collisions.cpp
+  cut_stencil.cpp
   drag.cpp
   drag_limit.cpp
   field_forces.cpp

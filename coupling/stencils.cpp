@@ -1,5 +1,7 @@
 #include "coupling/stencils.hpp"
 
+#include "coupling/cut_stencil.hpp"
+
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
@@ -19,65 +21,6 @@ constexpr int nowhere =
 
 int nearest_cell(double cells) { return std::abs(cells) < 1e8 ? static_cast<int>(std::lround(cells)) : nowhere; }
 
-/// Room for one block of cells around a carrier.
-struct Block {
-  std::vector<std::int32_t> slots;
-  std::vector<double> weights;
-  std::vector<char> reached;
-  std::vector<int> todo;
-};
-
-/// Bits of the cells that are connected to `seed` through faces, all among `active`, in a block of 3 x 3 x 3.
-std::uint32_t connected(std::uint32_t active, std::uint32_t seed) {
-  constexpr std::uint32_t x0 = 0b001001001001001001001001001, x2 = x0 << 2;  // cells with x = 0, x = 2
-  constexpr std::uint32_t y0 = 0b000000111000000111000000111, y2 = y0 << 6;  // rows with y = 0, y = 2
-  for (std::uint32_t reached = seed, before = 0; true; reached = reached & active) {
-    if (reached == before) return reached;
-    before = reached;
-    reached |= (reached & ~x2) << 1 | (reached & ~x0) >> 1 | (reached & ~y2) << 3 | (reached & ~y0) >> 3 |
-               reached << 9 | reached >> 9;
-  }
-}
-
-/// Drops the weights of cells that are not connected to the heaviest active cell through active cells of the block.
-void keep_connected(int width, Block& block) {
-  const int cells = width * width * width;
-  int seed = -1;
-  for (int n = 0; n < cells; ++n)
-    if (block.slots[n] >= 0 && (seed < 0 || block.weights[n] > block.weights[seed])) seed = n;
-  if (width == 3) {
-    std::uint32_t active = 0;
-    for (int n = 0; n < cells; ++n) active |= static_cast<std::uint32_t>(block.slots[n] >= 0) << n;
-    const bool any = seed >= 0 && block.weights[seed] > 0.0;
-    const std::uint32_t reached = any ? connected(active, std::uint32_t{1} << seed) : 0;
-    for (int n = 0; n < cells; ++n)
-      if ((reached >> n & 1) == 0) block.weights[n] = 0.0;
-    return;
-  }
-  block.reached.assign(cells, 0);
-  block.todo.clear();
-  if (seed >= 0 && block.weights[seed] > 0.0) {
-    block.reached[seed] = 1;
-    block.todo.push_back(seed);
-  }
-  while (!block.todo.empty()) {
-    const int n = block.todo.back();
-    block.todo.pop_back();
-    const std::array<int, 3> at{n % width, n / width % width, n / (width * width)};
-    const std::array<int, 3> stride{1, width, width * width};
-    for (int d = 0; d < 3; ++d)
-      for (int step = -1; step <= 1; step += 2) {
-        if (at[d] + step < 0 || at[d] + step >= width) continue;
-        const int next = n + step * stride[d];
-        if (block.slots[next] < 0 || block.reached[next]) continue;
-        block.reached[next] = 1;
-        block.todo.push_back(next);
-      }
-  }
-  for (int n = 0; n < cells; ++n)
-    if (!block.reached[n]) block.weights[n] = 0.0;
-}
-
 using Weights = std::array<std::array<double, 2 * Kernel::max_reach + 1>, 3>;  // by direction
 
 /// Every cell of the block is active: its entries are the products of the weights.
@@ -96,9 +39,10 @@ void fill_whole(int reach, const Weights& weight, const Block& block, Stencil& s
     }
 }
 
-/// Fills the entries of one carrier.
+/// Fills the entries and shifts of one carrier.
 void fill(const CellIndex& cells, const Kernel& kernel, const Eigen::Vector3d& position, Block& block, Stencil& stencil,
-          StencilEntry* entries) {
+          StencilEntry* entries, std::vector<Shift>& shifts) {
+  shifts.clear();
   stencil.count = 0;
   stencil.squares = 0.0;
   const Eigen::Vector3d at = (position - cells.origin()) / cells.dx();
@@ -139,6 +83,7 @@ void fill(const CellIndex& cells, const Kernel& kernel, const Eigen::Vector3d& p
                                     static_cast<std::int8_t>(k), part};
         stencil.squares += part * part;
       }
+  find_shifts(cells, base, stencil.offset, reach, {entries, static_cast<std::size_t>(stencil.count)}, block, shifts);
 }
 
 }  // namespace
@@ -212,6 +157,7 @@ void Stencils::build(const CellIndex& cells, std::span<const Eigen::Vector3d> po
   }
   sort_into_tiles(cells, position, carriers, reach);
   made_.resize(stencils_.size());
+  shifts_.resize(stencils_.size());
   kernels_.resize(stencils_.size());
   std::size_t room = 0;
   last = -1.0;
@@ -235,7 +181,7 @@ void Stencils::build(const CellIndex& cells, std::span<const Eigen::Vector3d> po
     Block block;
     for (std::size_t s = range.begin(); s != range.end(); ++s)
       if (kernels_[s] != nullptr)
-        fill(cells, *kernels_[s], made_[s].position, block, stencils_[s], entries_.data() + made_[s].begin);
+        fill(cells, *kernels_[s], made_[s].position, block, stencils_[s], entries_.data() + made_[s].begin, shifts_[s]);
   });
 
   outside_.clear();
@@ -249,12 +195,15 @@ void Stencils::build(const CellIndex& cells, std::span<const Eigen::Vector3d> po
 void Stencils::find_cells(std::size_t slots) {
   marks_.resize(slots / 64 + 2, 0);
   std::size_t first = marks_.size(), last = 0;
+  const auto mark = [&](std::int32_t slot) {
+    const std::size_t word = static_cast<std::size_t>(slot) / 64;
+    marks_[word] |= std::uint64_t{1} << (slot % 64);
+    first = std::min(first, word), last = std::max(last, word + 1);
+  };
   for (const Stencil& stencil : stencils_)
-    for (const StencilEntry& e : entries(stencil)) {
-      const std::size_t word = static_cast<std::size_t>(e.slot) / 64;
-      marks_[word] |= std::uint64_t{1} << (e.slot % 64);
-      first = std::min(first, word), last = std::max(last, word + 1);
-    }
+    for (const StencilEntry& e : entries(stencil)) mark(e.slot);
+  for (const auto& shifts : shifts_)
+    for (const Shift& shift : shifts) mark(shift.slot);
   used_.clear();
   for (std::size_t word = first; word < last; ++word)
     for (std::uint64_t left = std::exchange(marks_[word], 0); left != 0; left &= left - 1)

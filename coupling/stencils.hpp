@@ -22,6 +22,12 @@ struct StencilEntry {
   double weight = 0.0;              // > 0
 };
 
+/// What one cell adds to the reading of a carrier whose kernel a wall cuts.
+struct Shift {
+  std::int32_t slot = -1;
+  double weight = 0.0;  // of either sign; those of a stencil sum to 0
+};
+
 /// The stencil of one carrier.
 struct Stencil {
   std::int32_t carrier = -1;
@@ -33,7 +39,8 @@ struct Stencil {
 
 /// The stencils of a set of carriers. Walls cut the kernel: only active cells that are connected through cell faces,
 /// within the stencil, to its heaviest active cell take part (air on the far side of a thin wall does not), and the
-/// weights are scaled to sum 1. So what is spread is complete, and a uniform field is read as it is.
+/// weights are scaled to sum 1. So what is spread is complete, and a uniform field is read as it is. The mean place of
+/// what is left lies further from the wall than the carrier: shifts() leads the reading back (cut_stencil.hpp).
 ///
 /// Order: the carriers are sorted into tiles of the cross-section (y, z), each at least as wide as the widest stencil,
 /// and inside a tile by their nearest cell (z, y, x: the order of the memory) and by index. Tiles have one of four
@@ -53,8 +60,10 @@ class Stencils {
   std::span<const StencilEntry> entries(const Stencil& s) const {
     return {entries_.data() + s.begin, static_cast<std::size_t>(s.count)};
   }
-  /// The active cells of all stencils, each once, ascending. Some tens of carriers of a bed share each of them, so what
-  /// can be done a cell is not done a stencil.
+  /// What stencils()[n] reads beside its entries; empty away from walls.
+  std::span<const Shift> shifts(std::size_t n) const { return shifts_[n]; }
+  /// The active cells of all stencils and shifts, each once, ascending. Some tens of carriers of a bed share each of
+  /// them, so what can be done a cell is not done a stencil.
   const std::vector<std::int32_t>& cells() const { return used_; }
   /// Carriers without any active cell in reach, ascending. Their stencils are empty: they read zero and give nothing.
   const std::vector<int>& outside() const { return outside_; }
@@ -85,11 +94,12 @@ class Stencils {
   };
 
   std::vector<Stencil> stencils_;
-  std::vector<StencilEntry> entries_;   // only grows
-  std::vector<const Kernel*> kernels_;  // by stencil
-  std::vector<Made> made_;              // by stencil
-  std::vector<std::int32_t> used_;      // cells()
-  std::vector<std::uint64_t> marks_;    // a bit a slot; zero between calls
+  std::vector<StencilEntry> entries_;       // only grows
+  std::vector<std::vector<Shift>> shifts_;  // by stencil
+  std::vector<const Kernel*> kernels_;      // by stencil
+  std::vector<Made> made_;                  // by stencil
+  std::vector<std::int32_t> used_;          // cells()
+  std::vector<std::uint64_t> marks_;        // a bit a slot; zero between calls
   std::map<double, Kernel> known_kernels_;
   std::vector<int> outside_, tiles_{0};
   std::array<int, 2> tile_counts_{0, 0};

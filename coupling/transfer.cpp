@@ -26,7 +26,8 @@ void for_each_cell(std::span<const std::int32_t> slots, const Visit& visit) {
 
 }  // namespace
 
-void interpolate(const Stencils& stencils, const lbm::Moments& moments, std::size_t carriers, AirSamples& samples) {
+void interpolate(const Stencils& stencils, const lbm::Moments& moments, std::size_t carriers, AirSamples& samples,
+                 double wall_speed_lu) {
   samples.velocity_lu.resize(carriers, Eigen::Vector3d::Zero());
   samples.in_cells.resize(moments.ux.size());
   for_each_cell(stencils.cells(), [&](std::size_t, std::int32_t slot) {
@@ -35,6 +36,13 @@ void interpolate(const Stencils& stencils, const lbm::Moments& moments, std::siz
   for_each_stencil(stencils, [&](const Stencil& stencil) {
     Eigen::Vector4d sum = Eigen::Vector4d::Zero();
     for (const StencilEntry& e : stencils.entries(stencil)) sum += e.weight * samples.in_cells[e.slot];
+    const auto shifts = stencils.shifts(static_cast<std::size_t>(&stencil - stencils.stencils().data()));
+    if (!shifts.empty()) {
+      Eigen::Vector4d shift = Eigen::Vector4d::Zero();
+      for (const Shift& s : shifts) shift += s.weight * samples.in_cells[s.slot];
+      const double far = shift.norm(), most = sum.norm() + wall_speed_lu;
+      sum += far > most ? Eigen::Vector4d(most / far * shift) : shift;
+    }
     samples.velocity_lu[stencil.carrier] = sum.head<3>();
   });
 }

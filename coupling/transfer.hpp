@@ -1,7 +1,7 @@
 #pragma once
 // What the carriers read of the air and what they give back, both through the same stencils: interpolation is the
 // transpose of spreading, so the power that a carrier takes from the air at its sampled velocity is the power that the
-// air loses in its cells.
+// air loses in its cells. Beside walls it is not: there the cells lie further out than the carrier.
 
 #include <Eigen/Core>
 #include <span>
@@ -25,8 +25,12 @@ struct AirGradients {
   std::vector<Eigen::Vector3d> density_excess_lu;  // a third of it is the pressure gradient
 };
 
-/// The carriers' velocity of the air, u_p = sum_j w_pj u_j. Arrays grow to `carriers`.
-void interpolate(const Stencils& stencils, const lbm::Moments& moments, std::size_t carriers, AirSamples& samples);
+/// The carriers' velocity of the air, u_m = sum_j w_pj u_j, and where walls cut the kernel
+///     u_p = u_m + min(1, (|u_m| + U)/|d|) d,   d = sum_j s_pj u_j,   U: `wall_speed_lu`, of the fastest wall.
+/// Exact for linear fields beside plane walls too, where the air has the wall's velocity: there |d| <= |u_m - u_wall|.
+/// The limit keeps what is read from going past the velocity of a wall at rest. Arrays grow to `carriers`.
+void interpolate(const Stencils& stencils, const lbm::Moments& moments, std::size_t carriers, AirSamples& samples,
+                 double wall_speed_lu = 0.0);
 
 /// Gradients by least squares over the stencil, weighted by its weights:
 ///     g = C^-1 sum_j w_j (x_j - x_m)(f_j - f_m),  C = sum_j w_j (x_j - x_m)(x_j - x_m)^T,  x_m, f_m: weighted means.
