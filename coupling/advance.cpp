@@ -2,7 +2,8 @@
 // this:
 //   air steps     with the carriers' reaction of the interval before (explicit, as the air is 1,000 times faster)
 //   interpolation of the air at the carriers' present places, through the same stencils that carried their reaction
-//   carriers      over the same interval, drag semi-implicit; what drag gave them is what the air will lose next
+//   carriers      over the same interval, drag semi-implicit; what drag gave them is what the air will lose next, and
+//                 of those that rest the force that acts on them
 //   fines         taken off by the contacts and the slip of this interval
 //   transport     of the fines by the lattice's own fluxes, in steps of its own
 
@@ -19,6 +20,7 @@
 #include "coupling/divergence.hpp"
 #include "coupling/field_forces.hpp"
 #include "coupling/find_loads.hpp"
+#include "coupling/resting.hpp"
 #include "coupling/state.hpp"
 #include "coupling/stopwatch.hpp"
 #include "dem/advance.hpp"
@@ -54,7 +56,7 @@ void remove_departed(const Models& models, const std::vector<Vec3>& before, Stat
   const auto open = dem::open_contacts(s.carriers, s.time, gone);
   s.events.ended.insert(s.events.ended.end(), open.begin(), open.end());
   mark_emitted(emitted, s.fines);
-  dem::remove(gone, s.carriers);  // what they owe the air is still in impulse_on_air, by their old places
+  dem::remove(gone, s.carriers);  // what they owe the air is still there, by their old places
 }
 
 /// The carriers' part. What their integration cannot go on with is a divergence, with the place where it happened.
@@ -80,10 +82,16 @@ struct Interval {
   double rescale = 1.0, seconds = 0.0;
 };
 
-/// Air steps that the next interval may have.
+/// Air steps that the next interval may have: no more than leave drag its size (drag_limit.hpp). Carriers at rest wait
+/// longer, where that is half as much.
 int most_steps(const Models& models, const State& s) {
-  const bool resting = s.carriers.carriers.size() == 0 || all_asleep(s.carriers.carriers);
-  return resting ? models.steps_per_exchange_asleep : models.steps_per_exchange;
+  if (s.carriers.carriers.size() == 0) return models.steps_per_exchange_asleep;
+  const int most = all_asleep(s.carriers.carriers) ? models.steps_per_exchange_asleep : models.steps_per_exchange;
+  if (!computes_air(models, s) || !models.two_way) return most;
+  const double step = s.load_rate * s.scale.dt;  // load of one step
+  int steps = 1;
+  while (steps < most && (steps + 1) * step <= (steps < models.steps_per_exchange ? 0.5 : 0.25)) ++steps;
+  return steps;
 }
 
 /// Takes a new time step over; airborne fines are carried first, with the fluxes of the old one.
@@ -119,6 +127,23 @@ void find_stencils(const Models& models, const Interval& interval, State& s) {
   if (computes_air(models, s)) follow_volume(models, interval.steps, s);
 }
 
+/// What the carriers owe the air for the last interval. One that moved returns the impulse that it got. One that rested
+/// throughout got none that it could return: the air loses the force that its contacts (or whoever holds it) withstand,
+/// for as long as it will rest, so that force is kept and not its impulse.
+void owe_reaction(const std::vector<dem::Rest>& before, double interval, State& s) {
+  const dem::Carriers& c = s.carriers.carriers;
+  s.exchange_seconds = interval;
+  s.impulse_on_air.assign(c.size(), Vec3::Zero());
+  s.force_on_air.assign(c.size(), Vec3::Zero());
+  for (std::size_t p = 0; p < c.size(); ++p) {
+    const Vec3 aside = force_beside_drag(p, s);
+    if (before[p] != dem::Rest::awake && rests(c, p))
+      s.force_on_air[p] = -s.loads[p].drag * s.loads[p].air_velocity - aside;
+    else
+      s.impulse_on_air[p] = -s.carriers.drag_impulse[p] - interval * aside;
+  }
+}
+
 /// Carriers and fines over the interval that the air has done.
 void follow_air(const Models& models, const Interval& interval, double until, State& s) {
   s.events.clear();
@@ -129,15 +154,11 @@ void follow_air(const Models& models, const Interval& interval, double until, St
       const Stopwatch watch(s.effort.exchange);
       find_loads(models, interval.seconds, s);
     }
+    const std::vector<dem::Rest> rest = s.carriers.carriers.rest;
     step_carriers(models, interval.seconds, s);
     s.first_motion.update(s.carriers.carriers, s.time + interval.seconds);
     count_collisions(s.events.begun, s.carriers.carriers, counted_from(models, s), s.collisions);
-    if (computes_air(models, s) && models.two_way) {
-      s.exchange_seconds = interval.seconds;
-      s.impulse_on_air.resize(s.carriers.carriers.size());
-      for (std::size_t p = 0; p < s.impulse_on_air.size(); ++p) s.impulse_on_air[p] = -s.carriers.drag_impulse[p];
-      add_field_reaction(interval.seconds, s);
-    }
+    if (computes_air(models, s) && models.two_way) owe_reaction(rest, interval.seconds, s);
   }
   // The caller reads the air at `until`: with the forces of the walls as they belong to it.
   if (computes_air(models, s) && s.time + interval.seconds >= until * (1.0 - 1e-12)) lbm::settle_walls(s.drive, *s.air);

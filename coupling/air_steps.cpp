@@ -1,7 +1,9 @@
 #include "coupling/air_steps.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <vector>
 
 #include "coupling/averaged.hpp"
 #include "coupling/divergence.hpp"
@@ -48,22 +50,54 @@ void flag_runs(const std::vector<char>& touched, std::uint8_t flag, lbm::Air& ai
   }
 }
 
-/// The mean of the last two steps. In a bed the drag of a whole interval follows the air of one step, and is the
-/// stronger as the air has less room: what changes sign from step to step would be driven by the drag it makes.
-void average(const lbm::Moments& before, lbm::Moments& last) {
-  for (const auto list : {&lbm::Moments::density_excess, &lbm::Moments::ux, &lbm::Moments::uy, &lbm::Moments::uz})
-    for (std::size_t n = 0; n < (last.*list).size(); ++n)
-      (last.*list)[n] = 0.5F * ((last.*list)[n] + (before.*list)[n]);
+/// Density excess and velocity of one cell [lattice units].
+using Reading = std::array<float, 4>;
+
+std::vector<Reading> read(const std::vector<std::int32_t>& cells, const lbm::Moments& m) {
+  std::vector<Reading> readings;
+  readings.reserve(cells.size());
+  for (const std::int32_t s : cells) readings.push_back({m.density_excess[s], m.ux[s], m.uy[s], m.uz[s]});
+  return readings;
+}
+
+/// As the steps so far leave the air, under the force that has driven it.
+std::vector<Reading> read_now(const std::vector<std::int32_t>& cells, const lbm::Drive& drive, const lbm::Air& air) {
+  std::vector<Reading> readings;
+  readings.reserve(cells.size());
+  for (const std::int32_t s : cells) {
+    const auto m = lbm::moments_at(air, s);
+    const double half = 0.5 / (1.0 + m.density_excess);
+    readings.push_back({static_cast<float>(m.density_excess),
+                        static_cast<float>(m.ux + half * (air.force.x[s] + drive.uniform_force[0])),
+                        static_cast<float>(m.uy + half * (air.force.y[s] + drive.uniform_force[1])),
+                        static_cast<float>(m.uz + half * (air.force.z[s] + drive.uniform_force[2]))});
+  }
+  return readings;
+}
+
+/// The mean of two instants a step apart: what changes sign from step to step is not seen (drag_limit.hpp).
+void average(const std::vector<std::int32_t>& cells, const std::vector<Reading>& other, lbm::Moments& m) {
+  for (std::size_t n = 0; n < cells.size(); ++n) {
+    const std::array<float*, 4> at{&m.density_excess[cells[n]], &m.ux[cells[n]], &m.uy[cells[n]], &m.uz[cells[n]]};
+    for (std::size_t k = 0; k < at.size(); ++k) *at[k] = 0.5F * (*at[k] + other[n][k]);
+  }
 }
 
 }  // namespace
+
+std::vector<Vec3> impulse_for(double interval, const State& s) {
+  std::vector<Vec3> impulse = s.impulse_on_air;
+  for (std::size_t p = 0; p < impulse.size(); ++p) impulse[p] += interval * s.force_on_air[p];
+  return impulse;
+}
 
 void give_reaction(double interval, State& s) {
   Spreader::clear(s.forced, s.air->force);
   s.forced.clear();
   std::fill(s.touched.begin(), s.touched.end(), 0);
   if (!s.impulse_on_air.empty()) {
-    const MomentumBooking booking = s.spreader.spread(s.stencils, s.impulse_on_air, interval, s.scale, s.air->force);
+    const MomentumBooking booking =
+        s.spreader.spread(s.stencils, impulse_for(interval, s), interval, s.scale, s.air->force);
     s.momentum.given += booking.given;
     s.momentum.taken += booking.taken;
     s.momentum.rounding += booking.rounding;
@@ -77,7 +111,9 @@ void give_reaction(double interval, State& s) {
 
 void step_air(const Models& models, int steps, double rescale, std::span<const Companion> beside, State& s) {
   lbm::Air& air = *s.air;
-  lbm::Moments before_last;
+  const std::vector<std::int32_t>& cells = s.stencils.cells();
+  const bool mean = models.two_way && !cells.empty();
+  std::vector<Reading> other;  // of the step before the last, or after it where there is but one
   for (int n = 0; n < steps; ++n) {
     lbm::CollisionConstants constants;
     const double tau = s.scale.relaxation_time(models.air.viscosity / models.air.density);
@@ -89,8 +125,8 @@ void step_air(const Models& models, int steps, double rescale, std::span<const C
     }
     set_drive(models, s.time + n * s.scale.dt, s.scale, s.drive);
     set_inlet_turbulence(models, s.scale, s.inlet_way, air, s.drive);
-    const bool halved = !s.pores.cells.empty() && n == steps - 2;
-    if (n == steps - 1 || halved) {
+    const bool first_of_two = mean && n == steps - 2;
+    if (n == steps - 1 || first_of_two) {
       std::fill(s.touched.begin(), s.touched.end(), 0);
       s.stencils.mark_runs(s.cells, s.touched);
       for (const Companion& c : beside) c.state->stencils.mark_runs(s.cells, s.touched);
@@ -108,12 +144,13 @@ void step_air(const Models& models, int steps, double rescale, std::span<const C
       return collided;
     }();
     if (report.bad) report_bad_cell(air, s.scale, s.time);
-    if (halved) before_last = air.moments;
+    if (first_of_two) other = read(cells, air.moments);
     lbm::keep_mass(constants.rescale, s.pores, air, s.air_mass);
     s.extremes.max_speed_lu = std::max(s.extremes.max_speed_lu, std::sqrt(report.max_speed2));
     s.extremes.min_tau = std::min(s.extremes.min_tau, tau);
   }
-  if (!before_last.ux.empty()) average(before_last, air.moments);
+  if (mean && steps == 1) other = read_now(cells, s.drive, air);
+  if (mean) average(cells, other, air.moments);
   s.extremes.min_dt = std::min(s.extremes.min_dt, s.scale.dt);
   s.extremes.max_dt = std::max(s.extremes.max_dt, s.scale.dt);
   s.effort.steps_at_reference_dt += steps * s.scale.dt / models.time_step.reference_dt;

@@ -2,6 +2,7 @@
 // The air's part of one exchange interval.
 
 #include <span>
+#include <vector>
 
 #include "coupling/advance_together.hpp"
 #include "coupling/state.hpp"
@@ -16,6 +17,10 @@ inline bool computes_air(const Models& models, const State& s) { return s.air &&
 inline double step_of_cells(const Models& models, const State& s) {
   return computes_air(models, s) || !s.air ? s.scale.dt : models.time_step.reference_dt;
 }
+
+/// What the carriers give the air [N s] by place in `stencils`: the impulse that they owe, and for `interval` [s] the
+/// force of those that rest.
+std::vector<Vec3> impulse_for(double interval, const State& s);
 
 /// The carriers' reaction of the last interval becomes a force in the cells during `interval` [s].
 void give_reaction(double interval, State& s);

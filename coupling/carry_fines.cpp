@@ -39,7 +39,7 @@ lbm::BodyForce reaction(State& s) {
   lbm::BodyForce force;
   if (s.impulse_on_air.empty() || !(s.exchange_seconds > 0.0)) return force;
   for (auto* component : {&force.x, &force.y, &force.z}) component->assign(s.air->rows.slots(), 0.0F);
-  s.spreader.spread(s.stencils, s.impulse_on_air, s.exchange_seconds, s.scale, force);
+  s.spreader.spread(s.stencils, impulse_for(s.exchange_seconds, s), s.exchange_seconds, s.scale, force);
   share_force(s.pores, force);
   return force;
 }

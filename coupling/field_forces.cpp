@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "coupling/near_wall.hpp"
+#include "coupling/resting.hpp"
 
 namespace puffin::coupling {
 namespace {
@@ -36,7 +37,7 @@ void add_lift(const Models& m, double interval, const Vec3& vorticity, std::size
   dem::Load& load = s.loads[p];
   const double d = 2.0 * c.single_radius[p];
   // The mean slip of the interval, as drag wears it off: the slip at its start would make lift first order in time.
-  const Vec3 slip = mean_of_decay(load.drag * interval / c.mass[p]) * (load.air_velocity - c.velocity[p]);
+  const Vec3 slip = mean_of_decay(load.drag * interval / c.mass[p]) * (load.air_velocity - motion_of(c, p));
   Vec3 lift = saffman_mei_lift(m.air, d, slip, vorticity);
   if (m.lift == Lift::saffman_magnus && m.carriers.rotation) {
     const Vec3 relative = 0.5 * vorticity - c.spin[p];
@@ -50,65 +51,70 @@ void add_lift(const Models& m, double interval, const Vec3& vorticity, std::size
   load.force += c.carriers[p] * lift;
 }
 
-void add_near_wall(const Models& m, double interval, std::vector<dem::WallTouch>& touches, std::size_t p, State& s) {
-  const dem::Carriers& c = s.carriers.carriers;
+WallFactors factors_at(const Models& m, const dem::Carriers& c, std::vector<dem::WallTouch>& touches, std::size_t p) {
   const double radius = c.single_radius[p];
   m.walls->near(c.position[p], c.radius[p] + (wall_reach - 1.0) * radius, touches);
-  if (touches.empty() || !(touches.front().distance > 0.0)) return;
+  if (touches.empty() || !(touches.front().distance > 0.0)) return {};
   const dem::WallTouch* nearest = &touches.front();
   for (const auto& touch : touches)
     if (touch.distance < nearest->distance) nearest = &touch;
-  const Vec3 normal = (c.position[p] - nearest->point) / nearest->distance;
   const double gap = std::max(0.0, nearest->distance - c.radius[p]) / radius;  // of the parcel's surface
-  dem::Load& load = s.loads[p];
   const double felt = std::clamp((wall_reach - 1.0 - gap) / (wall_reach - full_reach), 0.0, 1.0);
-  const double along = 1.0 + felt * (drag_along_wall(1.0 / (1.0 + gap)) - 1.0);
-  const double across = 1.0 + felt * (drag_towards_wall(gap) - 1.0);
-  const double slip = normal.dot(load.air_velocity - c.velocity[p]);
-  const double excess = load.drag * (across - along);
-  load.force += excess * mean_of_decay(excess * interval / c.mass[p]) * slip * normal;
-  load.drag *= along;
+  return {(c.position[p] - nearest->point) / nearest->distance, 1.0 + felt * (drag_along_wall(1.0 / (1.0 + gap)) - 1.0),
+          1.0 + felt * (drag_towards_wall(gap) - 1.0)};
 }
 
 }  // namespace
+
+std::vector<WallFactors> find_wall_factors(const Models& m, const State& s) {
+  std::vector<WallFactors> factors;
+  if (!m.near_wall) return factors;
+  const dem::Carriers& c = s.carriers.carriers;
+  std::vector<dem::WallTouch> touches;
+  for (std::size_t p = 0; p < c.size(); ++p) factors.push_back(factors_at(m, c, touches, p));
+  return factors;
+}
+
+void add_drag_across(std::span<const WallFactors> factors, std::span<const double> excess, double interval, State& s) {
+  const dem::Carriers& c = s.carriers.carriers;
+  for (std::size_t p = 0; p < factors.size(); ++p) {
+    const Vec3& normal = factors[p].normal;
+    dem::Load& load = s.loads[p];
+    const double slip = normal.dot(load.air_velocity - motion_of(c, p));
+    // The slip across wears off; that of a carrier which does not give way stays.
+    const double lasting = rests(c, p) ? 1.0 : mean_of_decay(excess[p] * interval / c.mass[p]);
+    load.force += excess[p] * lasting * slip * normal;
+  }
+}
 
 void add_field_forces(const Models& m, double interval, State& s) {
   const bool averaged = m.volume_fraction == VolumeFraction::averaged;
   const bool pressure = m.pressure_gradient || averaged;
   const bool gradients = m.lift != Lift::none || pressure;
   if (averaged) s.pressure_forces.assign(s.carriers.carriers.size(), Vec3::Zero());
-  if ((!gradients && !m.near_wall) || (!s.air && !m.frozen_air)) return;
+  if (!gradients || (!s.air && !m.frozen_air)) return;
   const dem::Carriers& c = s.carriers.carriers;
-  if (s.air && gradients) interpolate_gradients(s.stencils, s.air->moments, c.size(), s.gradients);
+  if (s.air) interpolate_gradients(s.stencils, s.air->moments, c.size(), s.gradients);
   std::vector<std::uint8_t> outside(c.size(), 0);
   if (s.air)
     for (const int p : s.stencils.outside()) outside[p] = 1;
-  std::vector<dem::WallTouch> touches;
   for (std::size_t p = 0; p < c.size(); ++p) {
     if (outside[p]) continue;
-    if (gradients) {
-      const Matrix3d gradient = s.air ? Matrix3d(s.gradients.velocity_lu[p] / s.scale.dt)
-                                      : gradient_of(m.frozen_air, c.position[p], 0.5 * c.radius[p]);
-      if (m.lift != Lift::none) add_lift(m, interval, curl(gradient), p, s);
-      if (pressure) {
-        const Vec3 slope =
-            s.air ? Vec3(s.gradients.density_excess_lu[p] * (s.scale.pressure_difference(1.0) / s.scale.dx))
-                  : Vec3(-m.air.density * (gradient * s.loads[p].air_velocity));
-        s.loads[p].force -= volume_of(c, p) * slope;
-        if (averaged) s.pressure_forces[p] = -volume_of(c, p) * slope;
-      }
+    const Matrix3d gradient = s.air ? Matrix3d(s.gradients.velocity_lu[p] / s.scale.dt)
+                                    : gradient_of(m.frozen_air, c.position[p], 0.5 * c.radius[p]);
+    if (m.lift != Lift::none) add_lift(m, interval, curl(gradient), p, s);
+    if (pressure) {
+      const Vec3 slope = s.air
+                             ? Vec3(s.gradients.density_excess_lu[p] * (s.scale.pressure_difference(1.0) / s.scale.dx))
+                             : Vec3(-m.air.density * (gradient * s.loads[p].air_velocity));
+      s.loads[p].force -= volume_of(c, p) * slope;
+      if (averaged) s.pressure_forces[p] = -volume_of(c, p) * slope;
     }
-    if (m.near_wall) add_near_wall(m, interval, touches, p, s);
   }
 }
 
-void add_field_reaction(double interval, State& s) {
-  const dem::Carriers& c = s.carriers.carriers;
-  for (std::size_t p = 0; p < s.impulse_on_air.size(); ++p)
-    if (c.rest[p] == dem::Rest::awake) {
-      s.impulse_on_air[p] -= interval * s.loads[p].force;
-      if (p < s.pressure_forces.size()) s.impulse_on_air[p] += interval * s.pressure_forces[p];
-    }
+Vec3 force_beside_drag(std::size_t p, const State& s) {
+  return p < s.pressure_forces.size() ? Vec3(s.loads[p].force - s.pressure_forces[p]) : s.loads[p].force;
 }
 
 }  // namespace puffin::coupling

@@ -1,6 +1,7 @@
 #include "coupling/self_disturbance.hpp"
 
 #include "coupling/lattice_answer.hpp"
+#include "coupling/resting.hpp"
 #include "coupling/stencil_loop.hpp"
 
 namespace puffin::coupling {
@@ -40,7 +41,7 @@ void take_off_self(const Models& m, std::span<const double> solid, const State& 
   const double tau = s.scale.relaxation_time(m.air.viscosity / m.air.density);
   for_each_stencil(s.stencils, [&](const Stencil& stencil) {
     const int p = stencil.carrier;
-    const Vec3 read = velocity[p] - c.velocity[p];
+    const Vec3 motion = motion_of(c, p), read = velocity[p] - motion;
     const double slip = read.norm();
     if (stencil.count == 0 || !(slip > 0.0)) return;
     const double d = 2.0 * c.single_radius[p], phi = solid.empty() ? 0.0 : solid[p];
@@ -59,7 +60,7 @@ void take_off_self(const Models& m, std::span<const double> solid, const State& 
       if (std::abs(lambda - last) < settled) break;
       single = drag_coefficient(m.drag, m.air, d, slip / (1.0 - lambda), phi);
     }
-    velocity[p] = c.velocity[p] + read / (1.0 - lambda);
+    velocity[p] = motion + read / (1.0 - lambda);
     beta[p] = c.carriers[p] * single;
   });
 }

@@ -138,7 +138,9 @@ struct State {
   AirGradients gradients;  // only where a model needs them
   Spreader spreader;
   std::vector<Vec3> impulse_on_air;  // [N s] by place in `stencils`, to be given to the air in the next exchange
-  double exchange_seconds = 0.0;     // [s] in which the carriers gathered it, the last exchange
+  std::vector<Vec3> force_on_air;    // [N] likewise, of carriers that rest: it acts throughout the next exchange
+  double exchange_seconds = 0.0;     // [s] in which the carriers gathered the impulse, the last exchange
+  double load_rate = 1e300;          // [1/s] the load G of drag_limit.hpp in a second, at most, at the last exchange
   MomentumBooking momentum;          // sums since the start [N s]
   std::vector<dem::Load> loads;
   lbm::PoreSpace pores;               // of VolumeFraction::averaged

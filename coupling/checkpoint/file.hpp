@@ -19,7 +19,7 @@
 
 namespace puffin::coupling {
 
-inline constexpr std::uint32_t checkpoint_format = 5;
+inline constexpr std::uint32_t checkpoint_format = 6;
 
 /// A sound file, but of something else: another version, case or lattice. An older one will not do either.
 class CheckpointForeign : public std::runtime_error {

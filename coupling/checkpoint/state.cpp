@@ -72,12 +72,12 @@ namespace {
 void time_fields(auto& archive, Is<State> auto& state) {
   auto& [time, scale, step_factor, air, air_mass, drive, inlet_way, cells, touched, carriers, fines, collisions,
          first_motion, departures, events, stencils, stencils_at, forced, samples, gradients, spreader, impulse_on_air,
-         exchange_seconds, momentum, loads, pores, pressure_forces, release, scalars, budget, fluxes, routes,
-         steps_since_scalars, steps_per_scalar_update, airborne, fines_drift, effort, extremes] = state;
+         force_on_air, exchange_seconds, load_rate, momentum, loads, pores, pressure_forces, release, scalars, budget,
+         fluxes, routes, steps_since_scalars, steps_per_scalar_update, airborne, fines_drift, effort, extremes] = state;
   // Of the drive, what the fines read that are carried before the next air step, if the time step changes there.
   archive(time, scale.dt, step_factor, air_mass, drive.speed, drive.uniform_force, inlet_way, collisions, departures,
-          pores.share, stencils_at.position, stencils_at.radius, impulse_on_air, exchange_seconds, momentum,
-          steps_since_scalars, steps_per_scalar_update, airborne, fines_drift, effort, extremes);
+          pores.share, stencils_at.position, stencils_at.radius, impulse_on_air, force_on_air, exchange_seconds,
+          load_rate, momentum, steps_since_scalars, steps_per_scalar_update, airborne, fines_drift, effort, extremes);
 }
 
 /// The lattice belongs to the case; of the air only what moves. What walls keep of their cells they find again from the
@@ -123,7 +123,9 @@ struct Sizes {
     const std::size_t driven = s.air ? s.air->boundaries.size() : 0, first = s.air && s.air->steps > 0 ? driven : 0;
     if (s.drive.speed.size() != driven && s.drive.speed.size() != first) return false;
     if (s.stencils_at.position.size() != s.stencils_at.radius.size()) return false;
-    if (!s.impulse_on_air.empty() && s.impulse_on_air.size() != s.stencils_at.position.size()) return false;
+    for (const auto* owed : {&s.impulse_on_air, &s.force_on_air})
+      if (!owed->empty() && owed->size() != s.stencils_at.position.size()) return false;
+    if (s.impulse_on_air.size() != s.force_on_air.size()) return false;
     return scalars_fit(s);
   }
 

@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
 #include <random>
 
 #include "coupling/volume_fraction.hpp"
@@ -135,6 +138,39 @@ TEST(DragLimit, TheBoundIsNeverBelowTheLoad) {
   std::vector<double> beta = x.beta;
   limit_drag(x.stencils, scale.dt, scale, x.spreader, load, beta);
   EXPECT_LE(*std::max_element(load.begin(), load.end()), bound * (1.0 + 1e-12));
+}
+
+/// Largest growth an interval of N steps of a motion y' = mu (y + a), a = -load s/N, under the sample s of the interval
+/// before, the mean of two instants as air_steps.cpp takes it: the larger root of the map of (y, s).
+double growth(std::complex<double> mu, int steps, double load) {
+  using Complex = std::complex<double>;
+  const auto interval = [&](Complex y, Complex sample) {
+    const Complex a = -load / steps * sample;
+    Complex before = y;
+    for (int n = 0; n < steps; ++n) before = y, y = mu * (y + a);
+    const Complex at_step = before + 0.5 * a, other = (steps == 1 ? y : before / mu - a) + 0.5 * a;
+    return std::array{y, 0.5 * (at_step + other)};
+  };
+  const auto one = interval(1.0, 0.0), two = interval(0.0, 1.0);
+  const Complex half = 0.5 * (one[0] + two[1]), root = std::sqrt(half * half - one[0] * two[1] + one[1] * two[0]);
+  return std::max(std::abs(half + root), std::abs(half - root));
+}
+
+// What the limits are chosen by (drag_limit.hpp). 1e-6: a double root of 1 is known to the root of the rounding.
+TEST(DragLimit, NoMotionOfTheAirGrowsUnderTheLoadsThatNeedNoLimit) {
+  for (int n = 0; n <= 720; ++n) {
+    const double angle = M_PI * n / 720;
+    EXPECT_LT(growth(std::polar(1.0, angle), 1, largest_load(1)), 1.0 + 1e-6) << "one step, undamped";
+    // Sound of angular speed theta a step has the wave number theta/c_s; bulk viscosity 1/9 damps it by
+    // exp(-k^2/18) a step, k^2 = 3 theta^2: 0.167 theta^2.
+    const auto sound = std::polar(std::exp(-angle * angle / 6.0), angle);
+    for (const int steps : {2, 3, 5, 8}) EXPECT_LT(growth(sound, steps, largest_load(steps)), 1.0) << steps;
+    EXPECT_LT(growth(sound, 16, 0.25), 1.0);
+  }
+  for (const int steps : {1, 2, 3, 5, 8, 16}) {
+    EXPECT_LT(growth(1.0, steps, largest_load(steps)), 0.75) << "what stays decays";
+    EXPECT_LT(growth(-1.0, steps, largest_load(steps)), 1.0 + 1e-6) << "what changes sign from step to step";
+  }
 }
 
 TEST(DragLimit, ABedBelowTheLimitKeepsItsDragExactly) {
