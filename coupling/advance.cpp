@@ -18,6 +18,7 @@
 #include "coupling/averaged.hpp"
 #include "coupling/carry_fines.hpp"
 #include "coupling/divergence.hpp"
+#include "coupling/exchange_interval.hpp"
 #include "coupling/field_forces.hpp"
 #include "coupling/find_loads.hpp"
 #include "coupling/resting.hpp"
@@ -31,10 +32,6 @@
 namespace puffin::coupling {
 
 namespace {
-
-bool all_asleep(const dem::Carriers& carriers) {
-  return std::none_of(carriers.rest.begin(), carriers.rest.end(), [](dem::Rest r) { return r == dem::Rest::awake; });
-}
 
 /// Takes carriers out that have left through an opening on the way from where they were `before` the interval. One that
 /// has left through a wall stays, wherever it goes: a failure, for Health to find.
@@ -81,18 +78,6 @@ struct Interval {
   int steps = 1;
   double rescale = 1.0, seconds = 0.0;
 };
-
-/// Air steps that the next interval may have: no more than leave drag its size (drag_limit.hpp). Carriers at rest wait
-/// longer, where that is half as much.
-int most_steps(const Models& models, const State& s) {
-  if (s.carriers.carriers.size() == 0) return models.steps_per_exchange_asleep;
-  const int most = all_asleep(s.carriers.carriers) ? models.steps_per_exchange_asleep : models.steps_per_exchange;
-  if (!computes_air(models, s) || !models.two_way) return most;
-  const double step = s.load_rate * s.scale.dt;  // load of one step
-  int steps = 1;
-  while (steps < most && (steps + 1) * step <= (steps < models.steps_per_exchange ? 0.5 : 0.25)) ++steps;
-  return steps;
-}
 
 /// Takes a new time step over; airborne fines are carried first, with the fluxes of the old one.
 void take_time_step(const Models& models, double dt, State& s) {

@@ -7,6 +7,7 @@
 #include "coupling/air_steps.hpp"
 #include "coupling/averaged.hpp"
 #include "coupling/divergence.hpp"
+#include "coupling/exchange_interval.hpp"
 #include "coupling/stopwatch.hpp"
 #include "lbm/eddy_diffusion.hpp"
 #include "lbm/wall_schemes.hpp"
@@ -109,9 +110,9 @@ void carry_fines(const Models& models, bool now, State& s) {
     s.steps_since_scalars = 0;
     return;
   }
-  if (s.steps_since_scalars == 0 ||
-      (!now && s.steps_since_scalars + models.steps_per_exchange <= s.steps_per_scalar_update))
-    return;
+  // Steps of the next interval: it may be cut short where carriers are dense.
+  const std::int64_t exchange = std::min<std::int64_t>(models.steps_per_exchange, most_steps(models, s));
+  if (s.steps_since_scalars == 0 || (!now && s.steps_since_scalars + exchange <= s.steps_per_scalar_update)) return;
   const Stopwatch watch(s.effort.scalars);
   lbm::ScalarOptions options = models.scalars;
   // In the steps of the fluxes, of which a retreat makes several out of one in a frozen field.
@@ -137,10 +138,10 @@ void carry_fines(const Models& models, bool now, State& s) {
   try {
     const lbm::StepsAllowed allowed = lbm::advance_scalars(
         s.air->rows, s.fluxes, part * static_cast<double>(s.steps_since_scalars), options, s.scalars, s.budget);
-    s.steps_per_scalar_update =
-        models.transport_steps ? steps_per_update({allowed.single / part, allowed.pair / part},
-                                                  steps_diffusion_follows(options) / part, models.steps_per_exchange)
-                               : 1.0;
+    s.steps_per_scalar_update = models.transport_steps
+                                    ? steps_per_update({allowed.single / part, allowed.pair / part},
+                                                       steps_diffusion_follows(options) / part, exchange)
+                                    : 1.0;
   } catch (const std::runtime_error& e) {
     const Draught worst = strongest_draught(s.air->rows, s.fluxes);
     diverge("%s (t = %.6g s): the cell at [%.5g, %.5g, %.5g] m passes %.3g of its air through one face in a step",

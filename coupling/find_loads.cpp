@@ -74,7 +74,9 @@ void find_loads(const Models& models, double interval, State& s) {
     double load = volume.empty() || !walls.empty() ? std::numeric_limits<double>::infinity()
                                                    : load_bound(largest_fraction, beta, volume, reaction_time, s.scale);
     const double most = largest_load(interval / s.scale.dt);
-    if (!(load <= most)) {
+    // A bound that would shorten the next intervals is no reason to: then the load itself is found.
+    const double longest = static_cast<double>(models.steps_per_exchange_asleep) * s.scale.dt / interval;
+    if (!(load * longest <= largest_load(static_cast<double>(models.steps_per_exchange_asleep)))) {
       std::vector<double> loads(count, 0.0);
       if (walls.empty())
         limit_drag(s.stencils, reaction_time, s.scale, s.spreader, loads, beta, most);

@@ -11,6 +11,7 @@ set(PUFFIN_COUPLING_SOURCES
   cut_stencil.cpp
   drag.cpp
   drag_limit.cpp
+  exchange_interval.cpp
   field_forces.cpp
   find_loads.cpp
   fines.cpp

@@ -164,11 +164,11 @@ TEST(DragLimit, NoMotionOfTheAirGrowsUnderTheLoadsThatNeedNoLimit) {
     // Sound of angular speed theta a step has the wave number theta/c_s; bulk viscosity 1/9 damps it by
     // exp(-k^2/18) a step, k^2 = 3 theta^2: 0.167 theta^2.
     const auto sound = std::polar(std::exp(-angle * angle / 6.0), angle);
-    for (const int steps : {2, 3, 5, 8}) EXPECT_LT(growth(sound, steps, largest_load(steps)), 1.0) << steps;
-    EXPECT_LT(growth(sound, 16, 0.25), 1.0);
+    for (const int steps : {2, 3, 5, 8, 9, 16, 17, 32, 64})
+      EXPECT_LT(growth(sound, steps, largest_load(steps)), 1.0 + 1e-6) << steps << ' ' << angle;
   }
-  for (const int steps : {1, 2, 3, 5, 8, 16}) {
-    EXPECT_LT(growth(1.0, steps, largest_load(steps)), 0.75) << "what stays decays";
+  for (const int steps : {1, 2, 3, 5, 8, 16, 64}) {
+    EXPECT_LT(growth(1.0, steps, largest_load(steps)), 0.9) << "what stays decays";
     EXPECT_LT(growth(-1.0, steps, largest_load(steps)), 1.0 + 1e-6) << "what changes sign from step to step";
   }
 }
