@@ -36,7 +36,7 @@ restitution = 0.6
 friction = 0.4
 [carriers.adhesion]
 model = "dmt"
-surface_energy = "3.6e-3 J/m^2"
+surface_energy = "1.8e-3 J/m^2"
 [stop]
 time = "6 ms"
 [output]
