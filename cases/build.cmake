@@ -14,6 +14,7 @@ set(PUFFIN_BUILD_SOURCES
   opening.cpp
   point_field.cpp
   room.cpp
+  section_blocks.cpp
   section_speed.cpp
   settle.cpp
   undriven_speed.cpp)

@@ -105,6 +105,10 @@ void find_stencils(const Models& models, const Interval& interval, State& s) {
   if (!s.air) return;
   const Stopwatch watch(s.effort.exchange);
   if (computes_air(models, s)) give_reaction(interval.seconds, s);
+  if (s.carriers.carriers.size() == 0) {  // given now, and nobody is left to owe more
+    s.impulse_on_air.clear();
+    s.force_on_air.clear();
+  }
   std::vector<int> all(s.carriers.carriers.size());
   for (std::size_t p = 0; p < all.size(); ++p) all[p] = static_cast<int>(p);
   s.stencils_at = {s.carriers.carriers.position, s.carriers.carriers.radius};

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "coupling/air_steps.hpp"
 #include "coupling/near_wall.hpp"
 #include "coupling/resting.hpp"
 
@@ -94,17 +95,19 @@ void add_field_forces(const Models& m, double interval, State& s) {
   if (averaged) s.pressure_forces.assign(s.carriers.carriers.size(), Vec3::Zero());
   if (!gradients || (!s.air && !m.frozen_air)) return;
   const dem::Carriers& c = s.carriers.carriers;
-  if (s.air) interpolate_gradients(s.stencils, s.air->moments, c.size(), s.gradients);
+  // Of a frozen field that carries fines there are cells, but none was stepped: it is asked itself.
+  const bool lattice = computes_air(m, s);
+  if (lattice) interpolate_gradients(s.stencils, s.air->moments, c.size(), s.gradients);
   std::vector<std::uint8_t> outside(c.size(), 0);
   if (s.air)
     for (const int p : s.stencils.outside()) outside[p] = 1;
   for (std::size_t p = 0; p < c.size(); ++p) {
     if (outside[p]) continue;
-    const Matrix3d gradient = s.air ? Matrix3d(s.gradients.velocity_lu[p] / s.scale.dt)
-                                    : gradient_of(m.frozen_air, c.position[p], 0.5 * c.radius[p]);
+    const Matrix3d gradient = lattice ? Matrix3d(s.gradients.velocity_lu[p] / s.scale.dt)
+                                      : gradient_of(m.frozen_air, c.position[p], 0.5 * c.radius[p]);
     if (m.lift != Lift::none) add_lift(m, interval, curl(gradient), p, s);
     if (pressure) {
-      const Vec3 slope = s.air
+      const Vec3 slope = lattice
                              ? Vec3(s.gradients.density_excess_lu[p] * (s.scale.pressure_difference(1.0) / s.scale.dx))
                              : Vec3(-m.air.density * (gradient * s.loads[p].air_velocity));
       s.loads[p].force -= volume_of(c, p) * slope;

@@ -42,7 +42,7 @@ template <class Real>
 [[gnu::always_inline]] inline Codes<Real> read_codes(const std::uint8_t* open) {
   constexpr int n = lanes_of<Real>;
   const Lanes<int, n> code = widen<n>(open);
-  return {to_numbers<Real, n>((code + 1) >> 1), to_numbers<Real, n>(code & 1)};
+  return {to_numbers<Real, n>(((code + 1) >> 1) & 1), to_numbers<Real, n>(code & 1)};
 }
 template <class Real, class From>
 [[gnu::always_inline]] inline RealsOf<Real> load(const From* p) {

@@ -85,6 +85,22 @@ TEST(SectionSpeed, WallsThinnerThanABlockPartIt) {
   EXPECT_NEAR(section_ratio(c, s, tree, v), 2.0, 2.0 / 10.0);  // of 10 cells, found to one
 }
 
+// A fluid cell at the inlet that touches no other has no way out; what else there is does.
+TEST(SectionSpeed, AStrayCellAtAnInletIsLeftOut) {
+  const Case c = scene(step, "0.25 mm", "outlet", "inlet", across);
+  const Surface s = load_surface(c);
+  const lbm::geometry::TriangleTree tree(s.mesh);
+  lbm::geometry::Voxels v = lbm::geometry::voxelize(tree, *c.numerics.dx);
+  const lbm::geometry::Voxels all = v;
+  const int last = v.size[0] - 1;
+  v.fill([&](int i, int j, int k) {
+    const bool beside = j < 3 && k < 3 && i >= last - 1 && !(i == last && j == 0 && k == 0);
+    return all.is_fluid(i, j, k) && !beside;
+  });
+  EXPECT_NEAR(section_ratio(c, s, tree, v), 3.0,
+              3.0 * 9.0 / 288.0);  // of 8 x 36 faces of the inlet 9 are closed or stray
+}
+
 TEST(SectionSpeed, TheStepIsSizedForItAndFollowsTheInlet) {
   Case c = scene(step, "0.25 mm", "outlet", "inlet", across);
   const Assessment a = assess(c, load_surface(c));

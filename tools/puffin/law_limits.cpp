@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <limits>
 #include <optional>
 
 #include "coupling/carry_fines.hpp"
@@ -68,11 +69,16 @@ void warn_of_slip(const cases::Simulation& s, Warner& warner) {
   if (!s.models.fines->drag_detach || !state.air || state.loads.size() != c.size()) return;
   std::vector<char> outside(c.size(), 0);
   for (const int p : state.stencils.outside()) outside[static_cast<std::size_t>(p)] = 1;
+  double fastest = 0.0, slowest = std::numeric_limits<double>::infinity();
   for (std::size_t p = 0; p < c.size(); ++p) {
-    if (outside[p]) continue;
+    if (outside[p] || c.rest[p] == dem::Rest::held) continue;  // what is held loses nothing
     const double slip = (state.loads[p].air_velocity - c.velocity[p]).norm();
-    warner.say("the drag on a carrier", slip, slip_limit_passed(*s.models.fines->drag_detach, slip), state.time);
+    fastest = std::max(fastest, slip);
+    if (slip < slowest && slip_limit_passed(*s.models.fines->drag_detach, slip)) slowest = slip;
   }
+  for (const double slip : {fastest, slowest})
+    if (std::isfinite(slip))
+      warner.say("the drag on a carrier", slip, slip_limit_passed(*s.models.fines->drag_detach, slip), state.time);
 }
 
 }  // namespace

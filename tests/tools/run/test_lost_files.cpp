@@ -93,6 +93,21 @@ TEST_F(LostFiles, ARunWhoseSummaryCouldNotBeWrittenCanBeResumed) {
   EXPECT_EQ(output::read_summary(folder_ / "out/summary.json").state, "finished");
 }
 
+// What the last carrier owed the air is given in the exchange after it left; then nothing is owed.
+TEST_F(LostFiles, ARunWhoseCarriersHaveAllLeftCanBeResumed) {
+  file("profile.csv", profile);
+  file("case.toml",
+       std::string(duct) +
+           "[carriers]\nlist = [{ position = [4.8e-3, 1e-3, 1e-3], velocity = [20.0, 0.0, 0.0], diameter = "
+           "\"70 um\", density = 1520 }]\ncontact = { restitution = 0.6, friction = 0.3 }\n");
+  std::string all = text("case.toml");
+  all.replace(all.find("time = \"1 ms\""), 13, "time = \"1 ms\", when_empty = false");
+  file("case.toml", all);
+  ASSERT_EQ(puffin("run case.toml --no-report --out out --until 0.5ms"), 0) << text("log.txt");
+  EXPECT_EQ(output::read_summary(folder_ / "out/summary.json").carriers->emitted, 1);
+  EXPECT_EQ(puffin("run case.toml --no-report --out out --resume"), 0) << text("log.txt");
+}
+
 // A cloud in air that does not change: nothing is streamed, so no air step is there to be counted.
 TEST_F(LostFiles, FinesInFrozenAirHaveCheckpointsOnTheWay) {
   file("case.toml", R"toml(name = "cloud"
