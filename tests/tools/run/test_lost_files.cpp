@@ -101,9 +101,10 @@ TEST_F(LostFiles, ARunWhoseCarriersHaveAllLeftCanBeResumed) {
            "[carriers]\nlist = [{ position = [4.8e-3, 1e-3, 1e-3], velocity = [20.0, 0.0, 0.0], diameter = "
            "\"70 um\", density = 1520 }]\ncontact = { restitution = 0.6, friction = 0.3 }\n");
   std::string all = text("case.toml");
-  all.replace(all.find("time = \"1 ms\""), 13, "time = \"1 ms\", when_empty = false");
+  all.replace(all.find("time = \"1 ms\""), 13, "time = \"60 ms\", when_empty = false");
+  all.replace(all.find("0.1 ms"), 8, "1 ms\", checkpoint = { wall = \"1 us\" } ");
   file("case.toml", all);
-  ASSERT_EQ(puffin("run case.toml --no-report --out out --until 0.5ms"), 0) << text("log.txt");
+  ASSERT_EQ(puffin("run case.toml --no-report --out out --until 30ms"), 0) << text("log.txt");
   EXPECT_EQ(output::read_summary(folder_ / "out/summary.json").carriers->emitted, 1);
   EXPECT_EQ(puffin("run case.toml --no-report --out out --resume"), 0) << text("log.txt");
 }
