@@ -25,8 +25,9 @@
 //          with its own damping where the collision relaxes the trace at once (bulk viscosity 1/9): largest factor
 //          0.95 (N = 2), 0.94 (5), 0.97 (8) at G = 1/2, 1.13, 1.11, 1.14 at G = 1; 0.95 at G = 1/4, N = 16.
 // Hence most = 1 for N = 1, 1/2 to N = 8, 1/4 to 16 and 1/8 to 64; and where the load is larger than 1/2 the exchange
-// comes more often (advance.cpp), so that the limit lowers the drag only of what is too much for a single step. The
-// mover is handed b_p and u_p and returns J_p, the air gets -J_p: (1) changes the size of J_p, not who gets it.
+// comes more often (exchange_interval.cpp), so that the limit lowers the drag only of what is too much for a single
+// step. The mover is handed b_p and u_p and returns J_p, the air gets -J_p: (1) changes the size of J_p, not who gets
+// it.
 //
 // Where G <= most nothing is changed. Rejected: b = beta/(1 + G), which is backward Euler for one carrier and one cell.
 // In a steady bed the air is renewed by the flow between two exchanges, and that factor would lower the drag (and the
