@@ -42,6 +42,8 @@ struct WallGroup {
 inline constexpr int group_unit = 16;  // lanes of the widest pack
 
 enum class Law { rr3, bgk, trt, central_moments, hrr };
+/// Whether the law's equilibrium has odd moments of third order.
+inline bool has_third_order(Law law) { return law != Law::bgk && law != Law::trt; }
 enum class Parity : std::uint8_t { even, odd };
 enum class Isa { baseline, avx2, avx512 };
 

@@ -11,6 +11,7 @@
 
 #include "lbm/cut_finder.hpp"
 #include "lbm/geometry/surface_check.hpp"
+#include "lbm/inlet_gains.hpp"
 #include "lbm/link_schedule.hpp"
 #include "lbm/moving_walls.hpp"
 #include "lbm/populations.hpp"
@@ -93,12 +94,7 @@ Links build_links(const Rows& rows, const LinkGeometry& surface, WallScheme sche
   // cuts, from one end to the other, and the inlet's other links must bring so much less. Both for a unit speed of
   // their own, the wall's and the inlet's: what the link would have brought goes to the inlet's face of the cell, less
   // what the wall carries.
-  struct Edge {
-    std::ptrdiff_t slot = 0;
-    std::int16_t face = 0, wall = 0, inlet = 0;
-    double own = 0.0, carried = 0.0;
-  };
-  std::vector<Edge> edges;
+  std::vector<InletEdge> edges;
   const auto settle_edges = [&](std::ptrdiff_t slot, std::vector<Cut>& cuts) {
     const auto cut_along = [&](int axis, int sign) -> const Cut* {
       for (const Cut& cut : cuts)
@@ -126,9 +122,7 @@ Links build_links(const Rows& rows, const LinkGeometry& surface, WallScheme sche
         if (moves && surface.boundaries[face->patch].slides && cut.patch == face->patch && beside != nullptr &&
             kind_of(*beside) == BoundaryKind::velocity_inlet) {
           const Vec3 direction(c[0], c[1], c[2]), at = rows.centre(slot) + 0.5 * rows.dx() * direction;
-          const auto brings = [&](int patch) {
-            return -6.0 * d3q19::weight[cut.direction] * direction.dot(surface.boundaries[patch].profile(at));
-          };
+          const auto brings = [&](int patch) { return gain_of(cut.direction, surface.boundaries[patch].profile(at)); };
           edges.push_back(
               {slot, beside->direction, face->patch, beside->patch, brings(beside->patch), brings(face->patch)});
         }
@@ -162,8 +156,9 @@ Links build_links(const Rows& rows, const LinkGeometry& surface, WallScheme sche
           if (boundary.kind == BoundaryKind::slip) {
             links.slip.push_back({slot, slot, link.run, link.run, cut.direction, cut.direction, cut.patch});
           } else if (boundary.kind == BoundaryKind::velocity_inlet) {
-            link.gain = -6.0 * d3q19::weight[cut.direction] *
-                        direction.dot(boundary.profile(centre + static_cast<double>(cut.q) * dx * direction));
+            const Vec3 u = boundary.profile(centre + static_cast<double>(cut.q) * dx * direction);
+            link.gain = gain_of(cut.direction, u);
+            link.cubic = cubic_gain_of(cut.direction, u);
             links.inlets.push_back(link);
           } else {
             links.outlets.push_back(link);
@@ -225,57 +220,7 @@ Links build_links(const Rows& rows, const LinkGeometry& surface, WallScheme sche
 
   if (any_moving) carry_along_walls(rows, surface, links);
 
-  // Inlets: the mean speed over the cells of the opening is the one asked for. On a grid that does not fit the opening
-  // the cells cover a slightly different area; keeping the speed keeps the dynamic head, to which the pressure drop is
-  // proportional (keeping the flow rate instead would put the error of the area twice into the pressure).
-  // Where the profile falls to zero at the walls (exact_flow) the sum over the cells is the midpoint rule for the flow
-  // rate whatever the fit, and the flow rate is kept.
-  links.opening_cells_area.assign(surface.boundaries.size(), 0.0);
-  for (std::size_t b = 0; b < surface.boundaries.size(); ++b) {
-    const Boundary& boundary = surface.boundaries[b];
-    if (boundary.kind != BoundaryKind::velocity_inlet && boundary.kind != BoundaryKind::pressure_outlet) continue;
-    Vec3 normal = Vec3::Zero();
-    for (std::size_t t = 0; t < surface.patch_of_triangle.size(); ++t)
-      if (surface.patch_of_triangle[t] == static_cast<int>(b)) normal += surface.mesh->area_vector(static_cast<int>(t));
-    const double patch_area = 0.5 * normal.norm() / (dx * dx);
-    normal.normalize();
-    double gain = 0.0, speed = 0.0, area = 0.0, faces = 0.0;
-    for (const Edge& edge : edges)
-      if (edge.inlet == static_cast<int>(b)) gain += edge.own;
-    for (const auto* list : {&links.inlets, &links.outlets})
-      for (const auto& link : *list) {
-        if (link.patch != static_cast<int>(b)) continue;
-        gain += link.gain;
-        if (link.direction > 6) continue;  // faces of cells alone make up the area
-        const auto& c = d3q19::velocity[link.direction];
-        const double face = std::abs(normal.dot(Vec3(c[0], c[1], c[2])));
-        area += face, faces += 1.0;
-        if (boundary.profile) speed -= face * normal.dot(boundary.profile(rows.centre(link.slot)));
-      }
-    links.opening_cells_area[b] = area;
-    if (faces == 0.0)
-      throw geometry::GeometryError("the opening '" + boundary.patch +
-                                    "' touches no cell of the fluid; dx is too large for it");
-    if (boundary.kind != BoundaryKind::velocity_inlet) continue;
-    if (!(gain > 0.0) || !(speed > 0.0))
-      throw geometry::GeometryError("the profile of the inlet '" + boundary.patch + "' does not point into the fluid");
-    // The mean of the profile over the cells is brought to 1, then the links to the flow of all cells at that mean.
-    const double scale = (boundary.exact_flow ? patch_area : area) / gain;
-    for (auto& link : links.inlets)
-      if (link.patch == static_cast<int>(b)) link.gain *= scale;
-    for (const Edge& edge : edges) {
-      if (edge.inlet != static_cast<int>(b)) continue;
-      for (auto at = std::lower_bound(links.inlets.begin(), links.inlets.end(), edge.slot,
-                                      [](const OpeningLink&link, std::ptrdiff_t slot) { return link.slot < slot; });
-           at != links.inlets.end() && at->slot == edge.slot; ++at) {
-        if (at->direction != edge.face) continue;
-        at->gain += scale * edge.own;
-        at->wall_gain -= edge.carried;
-        at->wall = edge.wall;  // all walls that slide have one speed on the lattice
-      }
-    }
-  }
-
+  scale_inlets(rows, surface, edges, links);
   join_slip_links(rows, links.slip);
   links.schedule = std::make_shared<const LinkSchedule>(schedule_links(rows, links, kinds.fluid));
 

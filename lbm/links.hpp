@@ -55,6 +55,7 @@ struct OpeningLink {
   std::int16_t direction = 0;
   std::int16_t patch = 0;
   double gain = 0.0;       // velocity inlet: population gained for a unit mean speed: -6 w c.profile
+  double cubic = 0.0;      // and for its cube, by laws with odd moments of third order: inlet_gains.hpp
   double wall_gain = 0.0;  // for a unit speed of the sliding wall at the edge: less what that carries along
   std::int16_t wall = -1;  // the patch of that wall
 };

@@ -52,13 +52,16 @@ Departed departed(const Run& run, std::ptrdiff_t slot, Parity last, double at_re
 template <class T>
 void apply_inlets(const Air& air, const Drive& drive, Parity last, std::size_t first, std::size_t end,
                   Populations<T>& p) {
+  const bool cubic = has_third_order(air.options.law);
   for (std::size_t k = first; k < end; ++k) {
     const OpeningLink& link = air.links.inlets[k];
     const Run& run = air.rows.runs()[link.run];
     double more = drive.inlet_fluctuation.empty() ? 0.0 : drive.inlet_fluctuation[k];
     if (link.wall >= 0) more += link.wall_gain * drive.speed[link.wall];
+    const double speed = drive.speed[link.patch];
+    if (cubic) more += link.cubic * speed * speed * speed;
     returning(run, link, last, p) =
-        p.departed(run, link.slot, link.direction, last) + static_cast<T>(link.gain * drive.speed[link.patch] + more);
+        p.departed(run, link.slot, link.direction, last) + static_cast<T>(link.gain * speed + more);
   }
 }
 
