@@ -10,7 +10,9 @@
 namespace puffin::cases {
 namespace {
 
-constexpr double viscous = 0.505;  // relaxation time above which the map says nothing
+/// Relaxation time above which the map says nothing: viscosity damps whatever the settings. Two relaxation times hold a
+/// shear wave in a periodic box at 0.5116 and ruin it, without an end, at 0.5087.
+double viscous(Collision collision) { return collision == Collision::trt ? 0.512 : 0.505; }
 
 [[noreturn]] void refuse(const std::filesystem::path& file, const toml::node& at, const std::string& text) {
   throw std::runtime_error(file.string() + ":" + std::to_string(at.source().begin.line) + ": " + text);
@@ -100,7 +102,7 @@ std::string write_envelope(const std::vector<EnvelopeRow>& rows) {
 }
 
 std::string outside_envelope(const Case& c, double tau, double lattice_speed, const std::vector<EnvelopeRow>& rows) {
-  if (tau > viscous || rows.empty()) return {};
+  if (tau > viscous(c.numerics.collision) || rows.empty()) return {};
   const std::string settings = settings_of(c.numerics.collision, c.numerics.les, constant_of(c), c.numerics.wall);
   const EnvelopeRow* row = row_of(c, rows);
   if (row == nullptr)
