@@ -116,7 +116,8 @@ void build_lattice(const Case& c, const LatticeNumbers& numbers, Simulation& s) 
   links.mesh = &s.tree->mesh();
   links.patch_of_triangle = s.surface.patches.of_triangle;
   describe_patches(c, s.surface, links.boundaries, s.models.patches);
-  release_plug(s, links);
+  // Markers would pump the band behind an immersed wall that moves.
+  if (c.numerics.wall != WallScheme::ibm) release_plug(s, links);
 
   lbm::AirOptions air;
   air.law = law_of(c.numerics.collision);

@@ -40,6 +40,24 @@ plane = [{ name = "a", normal = "x", at = "0.5 mm" }, { name = "b", normal = "x"
     EXPECT_NEAR(last(planes, "plane", name, "flow_rate") / 1.8e-5, 1.0, 1e-4) << name;
 }
 
+// A duct 8 to 10 cells wide that a plug enters at Re 180 has one drop, whichever way its walls are imposed: `ibm` has
+// 6 % more here, 2 % on cells of half the size. While markers near the plug moved with it they pumped the air of the
+// band, and the drop was -7 Pa. Between 8 and 16 ms, when the flow is steady.
+TEST_F(AirScene, APlugBetweenImmersedWallsHasTheDropOfSharpOnes) {
+  const auto drop = [&](const std::string& wall) {
+    EXPECT_EQ(run(wall, box(wall, "16 mm", "4 mm", "3.2 mm") + "[air]\ndensity = 1.2\nviscosity = 1.2e-4\n" +
+                            boundary("x-min", "type = \"velocity-inlet\"\nvelocity = \"5 m/s\"") +
+                            boundary("x-max", outlet) + "[numerics]\ndx = \"0.4 mm\"\nwall = \"" + wall +
+                            "\"\n[stop]\ntime = \"16 ms\"\n[output]\npressure_window = [\"8 ms\", \"16 ms\"]\n"),
+              0)
+        << text(wall + ".log");
+    return output::read_summary(folder_ / wall / "summary.json").pressure->total_to_static_drop.mean.value_or(0.0);
+  };
+  const double sharp = drop("bouzidi");
+  EXPECT_NEAR(drop("ibm") / sharp, 1.0, 0.10);
+  EXPECT_NEAR(drop("psm") / sharp, 1.0, 0.02);
+}
+
 /// Plates 1 mm apart, one cell wide, between two openings of 0 Pa, with more boundaries.
 std::string between_openings(const std::string& name, const std::string& length, const std::string& air_and_more) {
   return box(name, length, "0.0625 mm", "1 mm") + air + air_and_more +
