@@ -30,8 +30,9 @@ std::vector<EnvelopeRow> read_envelope(const std::filesystem::path& file);
 std::string write_envelope(const std::vector<EnvelopeRow>& rows);
 
 /// What to say of a case whose lattice has the relaxation time tau and the lattice speed given: its settings diverged
-/// there in the map, went beyond it, or are not in it. "" if they ran, or if tau is above 0.505 (trt: 0.512): viscosity then damps
-/// what the map is about. Of several constants of the eddy viscosity the largest not above the case's counts.
+/// there in the map, went beyond it, or are not in it. "" if they ran, or if tau is above 0.505 (trt: 0.512): viscosity
+/// then damps what the map is about. Of several constants of the eddy viscosity the largest not above the case's
+/// counts.
 std::string outside_envelope(const Case& c, double tau, double lattice_speed, const std::vector<EnvelopeRow>& rows);
 
 }  // namespace puffin::cases
