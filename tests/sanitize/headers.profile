@@ -1,0 +1,3 @@
+# Headers whose lines are not counted.
+!src:*/include/eigen3/*
+!src:*/include/c[+][+]/*
