@@ -6,99 +6,15 @@
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
-#include <unordered_map>
 
 #include "lbm/geometry/surface_check.hpp"
+#include "lbm/marker_samples.hpp"
 
 namespace puffin::lbm {
 
 using geometry::Vec3;
 
 namespace {
-
-struct Marker {
-  Vec3 surface = Vec3::Zero(), normal = Vec3::Zero();
-  double area = 0.0;
-  int triangle = -1;
-};
-
-/// Buckets of an edge length, to find what is near.
-class Buckets {
- public:
-  explicit Buckets(double edge) : edge_(edge) {}
-  void add(const Vec3& x, int n) { held_[key(cell(x))].push_back(n); }
-  template <class Visit>
-  void near(const Vec3& x, const Visit& visit) const {
-    const auto c = cell(x);
-    for (int dz = -1; dz <= 1; ++dz)
-      for (int dy = -1; dy <= 1; ++dy)
-        for (int dx = -1; dx <= 1; ++dx) {
-          const auto found = held_.find(key({c[0] + dx, c[1] + dy, c[2] + dz}));
-          if (found == held_.end()) continue;
-          for (const int n : found->second) visit(n);
-        }
-  }
-
- private:
-  using Cell = std::array<std::int64_t, 3>;
-  Cell cell(const Vec3& x) const {
-    Cell c;
-    for (int d = 0; d < 3; ++d) c[d] = static_cast<std::int64_t>(std::floor(x[d] / edge_));
-    return c;
-  }
-  static std::int64_t key(const Cell& c) {
-    return (c[0] & 0x1fffff) | (c[1] & 0x1fffff) << 21 | (c[2] & 0x1fffff) << 42;
-  }
-  double edge_;
-  std::unordered_map<std::int64_t, std::vector<int>> held_;
-};
-
-/// Samples every wall triangle finely, then keeps samples no nearer to each other than the spacing and gives each kept
-/// one the area of those that are nearest to it. Faces that meet at an edge have markers of their own. The order of the
-/// triangles decides, so the result is always the same.
-std::vector<Marker> sample(const LinkGeometry& surface, double spacing) {
-  std::vector<Marker> candidates;
-  const auto& mesh = *surface.mesh;
-  for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
-    if (surface.boundaries[surface.patch_of_triangle[t]].kind != BoundaryKind::wall) continue;
-    const auto& tri = mesh.triangles[t];
-    const Vec3 &a = mesh.vertices[tri[0]], &b = mesh.vertices[tri[1]], &c = mesh.vertices[tri[2]];
-    const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
-    const int m = std::max(1, static_cast<int>(std::ceil(longest / (0.4 * spacing))));
-    const Vec3 vector = mesh.area_vector(t), u = (b - a) / m, v = (c - a) / m;
-    if (!(vector.norm() > 0.0)) continue;
-    for (int i = 0; i < m; ++i)
-      for (int j = 0; i + j < m; ++j)
-        for (const double third : {1.0 / 3.0, 2.0 / 3.0}) {
-          if (third > 0.5 && i + j + 1 >= m) continue;
-          candidates.push_back({a + (i + third) * u + (j + third) * v, vector.normalized(),
-                                0.5 * vector.norm() / (static_cast<double>(m) * m), t});
-        }
-  }
-  std::vector<Marker> kept;
-  const double apart = 0.9 * spacing;
-  Buckets buckets(1.2 * spacing);
-  const auto nearest = [&](const Marker& m, double reach) {
-    int best = -1;
-    double least = reach;
-    buckets.near(m.surface, [&](int n) {
-      const double d = (kept[n].surface - m.surface).norm();
-      if (d < least && kept[n].normal.dot(m.normal) > 0.7) least = d, best = n;
-    });
-    return best;
-  };
-  std::vector<int> left_over;
-  for (int n = 0; n < static_cast<int>(candidates.size()); ++n) {
-    if (nearest(candidates[n], apart) >= 0) {
-      left_over.push_back(n);
-      continue;
-    }
-    buckets.add(candidates[n].surface, static_cast<int>(kept.size()));
-    kept.push_back(candidates[n]);
-  }
-  for (const int n : left_over) kept[nearest(candidates[n], 1.2 * spacing)].area += candidates[n].area;
-  return kept;
-}
 
 Weights transposed(const Weights& rows, std::size_t columns) {
   Weights out;
@@ -159,7 +75,7 @@ std::vector<double> row_sum_gain(const Weights& marker_cells, const Weights& cel
 Markers place_markers(const Rows& rows, const WallSides& sides, const LinkGeometry& surface,
                       const MarkerOptions& options) {
   const double dx = rows.dx();
-  std::vector<Marker> placed = sample(surface, options.spacing * dx);
+  const std::vector<SurfaceMarker> placed = spread_markers(surface, options.spacing * dx);
   Markers m;
   struct Stencil {
     std::ptrdiff_t nearest = -1;
@@ -167,7 +83,7 @@ Markers place_markers(const Rows& rows, const WallSides& sides, const LinkGeomet
   };
   std::vector<Stencil> stencils(placed.size());
   oneapi::tbb::parallel_for(std::size_t{0}, placed.size(), [&](std::size_t k) {
-    const Marker& marker = placed[k];
+    const SurfaceMarker& marker = placed[k];
     const Vec3 at = (marker.surface + options.retraction * dx * marker.normal - rows.origin()) / dx;
     const WallPlace own{marker.surface, marker.normal, 0.0, marker.triangle};
     std::array<int, 3> base;
