@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "lbm/geometry/adjacency.hpp"
+#include "lbm/geometry/facet_area.hpp"
 #include "lbm/geometry/hole_filling.hpp"
 #include "lbm/geometry/shells.hpp"
 #include "lbm/geometry/stl.hpp"
@@ -47,10 +48,7 @@ Repair remove(TriangleMesh& mesh, const std::vector<char>& keep, const std::stri
 
 Repair remove_degenerate(TriangleMesh& mesh) {
   std::vector<char> keep(mesh.triangles.size());
-  for (std::size_t i = 0; i < keep.size(); ++i) {
-    const auto& t = mesh.triangles[i];
-    keep[i] = t[0] != t[1] && t[1] != t[2] && t[2] != t[0];
-  }
+  for (std::size_t i = 0; i < keep.size(); ++i) keep[i] = !has_no_area(mesh, static_cast<int>(i));
   return remove(mesh, keep, "removed degenerate facets");
 }
 

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "lbm/geometry/adjacency.hpp"
+#include "lbm/geometry/facet_area.hpp"
 #include "lbm/geometry/self_intersection.hpp"
 #include "lbm/geometry/shells.hpp"
 #include "lbm/geometry/t_junctions.hpp"
@@ -84,12 +85,8 @@ void check_facets(const TriangleMesh& mesh, std::vector<Defect>& found) {
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const int t = static_cast<int>(i);
     const auto& tri = mesh.triangles[i];
-    const double longest = std::max({(mesh.corner(t, 1) - mesh.corner(t, 0)).squaredNorm(),
-                                     (mesh.corner(t, 2) - mesh.corner(t, 1)).squaredNorm(),
-                                     (mesh.corner(t, 0) - mesh.corner(t, 2)).squaredNorm()});
-    const bool equal_corners = tri[0] == tri[1] || tri[1] == tri[2] || tri[2] == tri[0];
-    // A height below 1e-9 of the longest side is rounding, not shape.
-    if (equal_corners || mesh.area_vector(t).norm() <= 1e-9 * longest) {
+    const bool equal_corners = has_equal_corners(tri);
+    if (has_no_area(mesh, t)) {
       add_place(degenerate, (mesh.corner(t, 0) + mesh.corner(t, 1) + mesh.corner(t, 2)) / 3.0,
                 "the triangle at " + place_text(mesh.corner(t, 0)) + " has no area; harmless, --repair removes it");
     }

@@ -74,6 +74,27 @@ TEST(Repair, DuplicateAndDegenerateFacetsGo) {
   EXPECT_TRUE(check_surface(mesh).empty());
 }
 
+TEST(Repair, ANeedleGoesAndTheSeamThatItClosedIsShared) {
+  // The facets on one side of an edge have a corner in its middle, those on the other have not: a facet with all
+  // corners on the edge lies between.
+  TriangleMesh mesh = shapes::box({0, 0, 0}, {0.04, 0.004, 0.003});
+  const int a = mesh.triangles[0][0], c = mesh.triangles[0][1], apex = mesh.triangles[0][2];
+  const int middle = static_cast<int>(mesh.vertices.size());
+  mesh.vertices.emplace_back(0.5 * (mesh.vertices[a] + mesh.vertices[c]));
+  mesh.triangles[0] = {a, middle, apex};
+  for (const auto& t : {std::array{middle, c, apex}, std::array{a, c, middle}}) {
+    mesh.triangles.push_back(t);
+    mesh.solid.push_back(mesh.solid[0]);
+  }
+  const double volume = enclosed_volume(mesh);
+  ASSERT_EQ(check_surface(mesh).size(), 1u);  // "degenerate facet ... --repair removes it"
+  const auto done = repair(mesh);
+  EXPECT_EQ(count(done, "removed degenerate facets"), 1u);
+  EXPECT_EQ(count(done, "split facets"), 1u);
+  EXPECT_TRUE(check_surface(mesh).empty());
+  EXPECT_NEAR(enclosed_volume(mesh), volume, 1e-12 * volume);
+}
+
 TEST(Repair, CopiesOfOneSenseGoAloneToo) {
   TriangleMesh mesh = torus();
   const std::vector<std::array<int, 3>> before = mesh.triangles;
