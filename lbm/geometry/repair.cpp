@@ -9,7 +9,6 @@
 #include "lbm/geometry/facet_area.hpp"
 #include "lbm/geometry/hole_filling.hpp"
 #include "lbm/geometry/shells.hpp"
-#include "lbm/geometry/stl.hpp"
 #include "lbm/geometry/surface_check.hpp"
 #include "lbm/geometry/t_junctions.hpp"
 #include "lbm/geometry/weld.hpp"
@@ -161,7 +160,7 @@ std::vector<Repair> repair(TriangleMesh& mesh, const RepairOptions& options) {
     if (r.count > 0) done.push_back(std::move(r));
   };
 
-  const double tolerance = options.weld_tolerance > 0.0 ? options.weld_tolerance : weld_fraction * diagonal;
+  const double tolerance = options.weld_tolerance > 0.0 ? options.weld_tolerance : mend_fraction * diagonal;
   Repair welded{.what = "welded vertices", .count = weld(mesh, tolerance)};
   welded.message = "welded vertices: " + std::to_string(welded.count);
   note(std::move(welded));

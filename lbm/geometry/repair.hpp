@@ -5,12 +5,17 @@
 #include <string>
 #include <vector>
 
+#include "lbm/geometry/t_junctions.hpp"
 #include "lbm/geometry/triangle_mesh.hpp"
 
 namespace puffin::lbm::geometry {
 
+/// Corners nearer than this fraction of the bounding box diagonal become one: clearly more than on_edge_fraction, so
+/// that of two corners that were meant to be one none is taken for a corner on an edge that ends in the other.
+constexpr double mend_fraction = 5.0 * on_edge_fraction;
+
 struct RepairOptions {
-  double weld_tolerance = 0.0;  // [m]; 0: weld_fraction of the bounding box diagonal
+  double weld_tolerance = 0.0;  // [m]; 0: mend_fraction of the bounding box diagonal
   double largest_hole = 0.0;    // [m] holes with a longer rim stay open; 0: a twentieth of the bounding box
                                 // diagonal, and every hole of three edges: one missing facet
 };

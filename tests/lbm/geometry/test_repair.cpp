@@ -3,9 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <random>
 
 #include "lbm/geometry/repair.hpp"
+#include "lbm/geometry/stl.hpp"
 #include "lbm/geometry/surface_check.hpp"
+#include "lbm/geometry/weld.hpp"
 #include "tests/lbm/geometry/shapes.hpp"
 
 namespace puffin::lbm::geometry {
@@ -30,16 +33,37 @@ TEST(Repair, ACleanSurfaceIsLeftAlone) {
   }
 }
 
-TEST(Repair, CornersOfItsOwnForEveryTriangleAreWelded) {
+TriangleMesh soup_of(const TriangleMesh& whole) {
   TriangleMesh soup;
-  const TriangleMesh whole = torus();
   for (std::size_t t = 0; t < whole.triangles.size(); ++t) {
     soup.triangles.push_back({static_cast<int>(3 * t), static_cast<int>(3 * t + 1), static_cast<int>(3 * t + 2)});
     for (int k = 0; k < 3; ++k) soup.vertices.push_back(whole.corner(static_cast<int>(t), k));
   }
   soup.solid = whole.solid;
   soup.solids = whole.solids;
+  return soup;
+}
+
+TEST(Repair, CornersOfItsOwnForEveryTriangleAreWelded) {
+  const TriangleMesh whole = torus();
+  TriangleMesh soup = soup_of(whole);
   EXPECT_EQ(count(repair(soup), "welded vertices"), 3 * whole.triangles.size() - whole.vertices.size());
+  EXPECT_TRUE(check_surface(soup).empty());
+}
+
+TEST(Repair, CornersThatMissEachOtherBySomeNanometresAreOneAndNoTJunctions) {
+  // A diagonal of 50 mm: reading welds up to 5 nm, and up to 50 nm from an edge a corner lies on it. Copies of a corner
+  // are up to 20 sqrt(3) nm apart.
+  const TriangleMesh whole = torus();
+  TriangleMesh soup = soup_of(whole);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> jitter(-1e-8, 1e-8);
+  for (Vec3& v : soup.vertices) v += Vec3(jitter(random), jitter(random), jitter(random));
+  weld(soup, weld_tolerance(soup));  // as read_stl does
+  const auto done = repair(soup);
+  EXPECT_EQ(count(done, "split facets"), 0u);
+  EXPECT_EQ(count(done, "filled holes"), 0u);
+  EXPECT_EQ(soup.triangles.size(), whole.triangles.size());
   EXPECT_TRUE(check_surface(soup).empty());
 }
 
