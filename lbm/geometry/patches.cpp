@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <numeric>
 #include <optional>
@@ -18,6 +19,17 @@ namespace {
 
 constexpr double plane_fraction = 1e-5;         // of the bounding box diagonal
 constexpr double flat_cosine = 1.0 - 3.807e-5;  // half a degree
+
+constexpr double near_fraction = 1e-2;  // of the diagonal: a point farther from the surface is a slip
+
+double diagonal_of(const TriangleMesh& mesh) {
+  Vec3 low = mesh.vertices[0], high = low;
+  for (const auto& v : mesh.vertices) {
+    low = low.cwiseMin(v);
+    high = high.cwiseMax(v);
+  }
+  return (high - low).norm();
+}
 
 // Number of single letters to insert, delete or replace to turn a into b (Levenshtein).
 std::size_t letters_apart(const std::string& a, const std::string& b) {
@@ -119,12 +131,7 @@ std::optional<Vec3> parse_point(const std::string& text) {
 // Triangles connected to the first that are turned less than half a degree from the normal, or lie in the plane through
 // the first with all corners (slivers and facets without area have no normal worth asking).
 std::vector<int> flat_around(const TriangleMesh& mesh, const Adjacency& adjacency, int first, const Vec3& normal) {
-  Vec3 low = mesh.vertices[0], high = low;
-  for (const auto& v : mesh.vertices) {
-    low = low.cwiseMin(v);
-    high = high.cwiseMax(v);
-  }
-  const double tolerance = plane_fraction * (high - low).norm();
+  const double tolerance = plane_fraction * diagonal_of(mesh);
   const Vec3 on = (mesh.corner(first, 0) + mesh.corner(first, 1) + mesh.corner(first, 2)) / 3.0;
   const auto flat = [&](int t) {
     const Vec3 n = mesh.area_vector(t);
@@ -148,22 +155,53 @@ std::vector<int> flat_around(const TriangleMesh& mesh, const Adjacency& adjacenc
   return found;
 }
 
-Outcome select_near(const TriangleMesh& mesh, const Adjacency& adjacency, const std::string& text) {
-  const auto point = parse_point(text);
-  if (!point) return {{}, "'near:" + text + "' is no point; write near:[x, y, z] with numbers in metres"};
-  int nearest = -1;
-  double best = std::numeric_limits<double>::infinity();
+struct Near {
+  int triangle = -1;
+  double distance = std::numeric_limits<double>::infinity();
+};
+
+Near nearest_facet(const TriangleMesh& mesh, const Adjacency& adjacency, const Vec3& point) {
+  Near best;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const int t = static_cast<int>(i);
     if (!(mesh.area(t) > 0.0) || adjacency.edge(t, 0) < 0) continue;
-    const auto on = nearest_on_triangle(*point, mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2));
-    const double d2 = (on.point - *point).squaredNorm();
-    if (d2 < best) {
-      best = d2;
-      nearest = t;
-    }
+    const auto on = nearest_on_triangle(point, mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2));
+    const double distance = (on.point - point).norm();
+    if (distance < best.distance) best = {t, distance};
   }
+  return best;
+}
+
+// The likeliest cause is the unit of the file in place of metres: said where the point would then lie on the surface.
+std::string too_far(const TriangleMesh& mesh, const Adjacency& adjacency, const Vec3& point, double away, double most) {
+  struct Unit {
+    const char* name;
+    double metres;
+  };
+  std::array<char, 400> text;
+  std::snprintf(text.data(), text.size(),
+                "near:[%.6g, %.6g, %.6g] lies %.4g mm from the surface, more than 1 %% of its diagonal (%.4g mm): its "
+                "numbers are metres; give a point on the feature",
+                point.x(), point.y(), point.z(), 1e3 * away, 1e3 * most);
+  std::string message = text.data();
+  if (away < diagonal_of(mesh)) return message;
+  for (const Unit& unit : std::array<Unit, 4>{{{"mm", 1e-3}, {"cm", 1e-2}, {"inch", 0.0254}, {"um", 1e-6}}}) {
+    const Vec3 meant = unit.metres * point;
+    if (!(nearest_facet(mesh, adjacency, meant).distance <= most)) continue;
+    std::snprintf(text.data(), text.size(), "; if they were meant in %s, write near:[%.9g, %.9g, %.9g]", unit.name,
+                  meant.x(), meant.y(), meant.z());
+    return message + text.data();
+  }
+  return message;
+}
+
+Outcome select_near(const TriangleMesh& mesh, const Adjacency& adjacency, const std::string& text) {
+  const auto point = parse_point(text);
+  if (!point) return {{}, "'near:" + text + "' is no point; write near:[x, y, z] with numbers in metres"};
+  const auto [nearest, away] = nearest_facet(mesh, adjacency, *point);
   if (nearest < 0) return {{}, "every triangle is degenerate"};
+  const double most = near_fraction * diagonal_of(mesh);
+  if (!(away <= most)) return {{}, too_far(mesh, adjacency, *point, away, most)};
   // A sliver's normal is rounding: the plane of what it found is better, and finds the rest.
   std::vector<int> found = flat_around(mesh, adjacency, nearest, mesh.area_vector(nearest).normalized());
   Vec3 sum = Vec3::Zero();

@@ -39,7 +39,7 @@ TEST(Patches, SolidPlaneAndPointSelectTheSameInlet) {
   TriangleMesh nameless = mesh;
   nameless.solids = {"all"};
   nameless.solid.assign(mesh.triangles.size(), 0);
-  for (const std::string select : {"plane:x-min", "near:[0.0001, 0.001, 0.002]", "near:[ -1 , 0.0025,0.002 ]"}) {
+  for (const std::string select : {"plane:x-min", "near:[0.0001, 0.001, 0.002]", "near:[ -0.0002 , 0.0025,0.002 ]"}) {
     const Patches p = assign_patches(nameless, {{"in", select}});
     EXPECT_EQ(p.names, (std::vector<std::string>{"in", "wall"}));
     EXPECT_NEAR(area_of(nameless, p, "in"), 0.005 * 0.004, 1e-15) << select;
@@ -58,7 +58,7 @@ TEST(Patches, UntaggedSolidsKeepTheirNames) {
 
 TEST(Patches, TheFeatureAtAPointEndsAtItsEdges) {
   const TriangleMesh mesh = shapes::box({0, 0, 0}, {1, 1, 1}, 6);
-  const Patches p = assign_patches(mesh, {{"top", "near:[0.5, 0.5, 0.9]"}});
+  const Patches p = assign_patches(mesh, {{"top", "near:[0.5, 0.5, 0.99]"}});
   EXPECT_EQ(std::count(p.of_triangle.begin(), p.of_triangle.end(), 0), 72);
   EXPECT_NEAR(area_of(mesh, p, "top"), 1.0, 1e-12);
 }
@@ -110,6 +110,20 @@ TEST(Patches, EveryMistakeIsToldAtOnceWithARemedy) {
         "patch 'f': this name is used twice"}) {
     EXPECT_NE(all.find(expected), std::string::npos) << expected << "\n--- in ---\n" << all;
   }
+}
+
+TEST(Patches, APointFarFromTheSurfaceIsRefusedWithTheUnitThatWasMeant) {
+  const auto box = shapes::box({0, 0, 0}, {0.04, 0.004, 0.003});
+  // In mm, as the file may be: in metres x-max is nearest; y-max was meant.
+  const std::string said = complaint(box, {{"in", "near:[20, 4, 1.5]"}});
+  for (const std::string expected : {"lies 2.041e+04 mm from the surface", "its numbers are metres",
+                                     "if they were meant in mm, write near:[0.02, 0.004, 0.0015]"})
+    EXPECT_NE(said.find(expected), std::string::npos) << expected << "\n--- in ---\n" << said;
+  // 1 % of the diagonal is 0.403 mm.
+  EXPECT_EQ(complaint(box, {{"in", "near:[-0.0004, 0.002, 0.0015]"}}), "");
+  const std::string beyond = complaint(box, {{"in", "near:[-0.00041, 0.002, 0.0015]"}});
+  EXPECT_NE(beyond.find("lies 0.41 mm from the surface"), std::string::npos) << beyond;
+  EXPECT_EQ(beyond.find("were meant in"), std::string::npos) << beyond;
 }
 
 TEST(Patches, AnEmptyPlaneIsRefused) {
