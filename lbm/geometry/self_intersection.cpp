@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <tuple>
 
+#include "lbm/geometry/adjacency.hpp"
 #include "lbm/geometry/clipped_polygon.hpp"
 
 namespace puffin::lbm::geometry {
@@ -23,28 +25,67 @@ double volume6(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   return std::abs(volume) <= rounding ? 0.0 : volume;
 }
 
-// Where the segment (p, q) passes through the interior of triangle t.
-std::optional<Vec3> pierce(const TriangleMesh& m, int t, const Vec3& p, const Vec3& q) {
+bool opposite(double a, double b) { return (a > 0.0 && b < 0.0) || (a < 0.0 && b > 0.0); }
+
+// Where the segment (p, q) passes through a triangle: its interior, or one of its edges.
+struct Piercing {
+  Vec3 where = Vec3::Zero();
+  int edge = -1;  // from corner `edge` to the next; -1: the interior
+};
+
+std::optional<Piercing> pierce(const TriangleMesh& m, int t, const Vec3& p, const Vec3& q) {
   const Vec3 &a = m.corner(t, 0), &b = m.corner(t, 1), &c = m.corner(t, 2);
   const double sp = volume6(a, b, c, p), sq = volume6(a, b, c, q);
-  if (sp == 0.0 || sq == 0.0 || (sp > 0.0) == (sq > 0.0)) return std::nullopt;
-  const double u = volume6(p, q, a, b), v = volume6(p, q, b, c), w = volume6(p, q, c, a);
-  const bool all_positive = u > 0.0 && v > 0.0 && w > 0.0, all_negative = u < 0.0 && v < 0.0 && w < 0.0;
-  if (!all_positive && !all_negative) return std::nullopt;
-  return p + sp / (sp - sq) * (q - p);
+  if (!opposite(sp, sq)) return std::nullopt;
+  const std::array<double, 3> side{volume6(p, q, a, b), volume6(p, q, b, c), volume6(p, q, c, a)};
+  int edge = -1, on_edges = 0;
+  for (int k = 0; k < 3; ++k) {
+    if (opposite(side[k], side[(k + 1) % 3])) return std::nullopt;
+    if (side[k] == 0.0) edge = k, ++on_edges;
+  }
+  if (on_edges > 1) return std::nullopt;
+  return Piercing{p + sp / (sp - sq) * (q - p), edge};
 }
 
-std::optional<Vec3> cross(const TriangleMesh& m, int s, int t) {
+// A pair of which an edge of one passes through an edge of the other: it may pass through the surface there, as through
+// the diagonal of a square, or only touch it. Its neighbour across that edge decides.
+struct ThroughEdge {
+  Intersection pair;
+  int p = -1, q = -1;            // the ends of the edge that passes
+  int triangle = -1, edge = -1;  // what it passes through
+};
+
+std::optional<Vec3> cross(const TriangleMesh& m, int s, int t, std::vector<ThroughEdge>& doubtful) {
   for (const auto& [edges_of, through] : {std::pair(s, t), std::pair(t, s)}) {
     const auto& corners = m.triangles[through];
     for (int k = 0; k < 3; ++k) {
       const int p = m.triangles[edges_of][k], q = m.triangles[edges_of][(k + 1) % 3];
       if (std::find(corners.begin(), corners.end(), p) != corners.end()) continue;
       if (std::find(corners.begin(), corners.end(), q) != corners.end()) continue;
-      if (const auto where = pierce(m, through, m.vertices[p], m.vertices[q])) return where;
+      const auto found = pierce(m, through, m.vertices[p], m.vertices[q]);
+      if (found && found->edge < 0) return found->where;
+      if (found) doubtful.push_back({{s, t, found->where}, p, q, through, found->edge});
     }
   }
   return std::nullopt;
+}
+
+// True if the ends of what passes lie on the same sides of both triangles at the edge: at a ridge that is only touched
+// each end is before one of them and behind the other.
+bool passes(const TriangleMesh& m, const Adjacency& adjacency, const ThroughEdge& d) {
+  const std::int32_t e = adjacency.edge(d.triangle, d.edge);
+  if (e < 0) return false;
+  const auto side = [&](int t, int v) {
+    return volume6(m.corner(t, 0), m.corner(t, 1), m.corner(t, 2), m.vertices[v]);
+  };
+  const auto uses = adjacency.uses(static_cast<std::size_t>(e));
+  const auto own = std::find_if(uses.begin(), uses.end(), [&](const auto& u) { return u.triangle == d.triangle; });
+  return std::any_of(uses.begin(), uses.end(), [&](const auto& u) {
+    if (u.triangle == d.triangle) return false;
+    const double turn = u.forward == own->forward ? -1.0 : 1.0;  // the two face different sides of the surface
+    return opposite(side(d.triangle, d.p), turn * side(u.triangle, d.q)) &&
+           opposite(side(d.triangle, d.q), turn * side(u.triangle, d.p));
+  });
 }
 
 // A point of the common part of two triangles in one plane that face the same way.
@@ -81,9 +122,11 @@ std::vector<Intersection> find_self_intersections(const TriangleMesh& mesh) {
 std::vector<Intersection> find_self_intersections(const TriangleTree& tree) {
   const TriangleMesh& mesh = tree.mesh();
   tbb::combinable<std::vector<Intersection>> found;
+  tbb::combinable<std::vector<ThroughEdge>> at_edges;
   const int n = static_cast<int>(mesh.triangles.size());
   tbb::parallel_for(tbb::blocked_range<int>(0, n, 1024), [&](const tbb::blocked_range<int>& r) {
     auto& mine = found.local();
+    auto& doubtful = at_edges.local();
     std::vector<int> candidates;
     for (int s = r.begin(); s < r.end(); ++s) {
       const Vec3 &a = mesh.corner(s, 0), &b = mesh.corner(s, 1), &c = mesh.corner(s, 2);
@@ -96,7 +139,7 @@ std::vector<Intersection> find_self_intersections(const TriangleTree& tree) {
           shared += std::count(mesh.triangles[t].begin(), mesh.triangles[t].end(), v) > 0;
         }
         if (shared > 2) continue;
-        auto where = shared < 2 ? cross(mesh, s, t) : std::nullopt;
+        auto where = shared < 2 ? cross(mesh, s, t, doubtful) : std::nullopt;
         if (!where) where = overlap(mesh, s, t);
         if (where) mine.push_back({s, t, *where});
       }
@@ -104,8 +147,17 @@ std::vector<Intersection> find_self_intersections(const TriangleTree& tree) {
   });
   std::vector<Intersection> all;
   found.combine_each([&](const std::vector<Intersection>& part) { all.insert(all.end(), part.begin(), part.end()); });
-  std::sort(all.begin(), all.end(),
-            [](const Intersection& x, const Intersection& y) { return x.a != y.a ? x.a < y.a : x.b < y.b; });
+  std::optional<Adjacency> adjacency;
+  at_edges.combine_each([&](const std::vector<ThroughEdge>& part) {
+    for (const ThroughEdge& d : part) {
+      if (!adjacency) adjacency.emplace(mesh);
+      if (passes(mesh, *adjacency, d)) all.push_back(d.pair);
+    }
+  });
+  const auto order = [](const Intersection& i) { return std::tuple(i.a, i.b, i.where.x(), i.where.y(), i.where.z()); };
+  std::sort(all.begin(), all.end(), [&](const auto& x, const auto& y) { return order(x) < order(y); });
+  const auto same_pair = [](const Intersection& x, const Intersection& y) { return x.a == y.a && x.b == y.b; };
+  all.erase(std::unique(all.begin(), all.end(), same_pair), all.end());
   return all;
 }
 

@@ -12,7 +12,8 @@ struct Intersection {
   Vec3 where = Vec3::Zero();
 };
 
-/// Pairs of triangles of which an edge of one passes through the interior of the other, or that lie in one plane, face
+/// Pairs of triangles of which an edge of one passes through the interior of the other, or through an edge of it and
+/// there through the surface (the diagonal of a square), or that lie in one plane, face
 /// the same way and overlap by more than a millionth of the smaller; sorted by (a, b). Pairs that share a vertex are
 /// tested with the edges that do not touch it. Pairs that only touch do not count, nor do faces that lie on each other
 /// back to back (the common face of two bodies), nor copies of one triangle (a duplicate facet).

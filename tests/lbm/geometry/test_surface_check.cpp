@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "lbm/geometry/surface_check.hpp"
@@ -128,6 +129,31 @@ TEST(SurfaceCheck, SelfIntersectionsAreFoundAndTouchingFacesAreNot) {
       find(check_surface(joined(cube(), box({0.01, 0.002, 0.002}, {0.02, 0.008, 0.008}))), "self-intersection"));
   EXPECT_FALSE(find(check_surface(shapes::transformed(shapes::torus(0.02, 0.005, 90, 40), shapes::rotation())),
                     "self-intersection"));
+}
+
+TEST(SurfaceCheck, BodiesWhoseEdgesPassThroughDiagonalsCross) {
+  // The three edges of each box that enter the other do it in the middle or on the diagonal of a square.
+  for (const double to : {0.006, 0.008}) {
+    const auto found =
+        find(check_surface(joined(box({0, 0, 0}, {0.004, 0.004, 0.004}), box({0.002, 0.002, 0.002}, {to, to, to}))),
+             "self-intersection");
+    ASSERT_TRUE(found) << to;
+    EXPECT_GE(found->count, 3u);
+  }
+}
+
+TEST(SurfaceCheck, EdgesThatTouchEdgesDoNotCross) {
+  // A box on its edge, turned by 45 degrees, whose lower edge lies across the upper edge of another such box.
+  const double h = 0.01 / std::sqrt(2.0);
+  Eigen::Matrix3d about_x = Eigen::AngleAxisd(std::acos(-1.0) / 4, Vec3::UnitX()).toRotationMatrix();
+  Eigen::Matrix3d about_y = Eigen::AngleAxisd(std::acos(-1.0) / 4, Vec3::UnitY()).toRotationMatrix();
+  const TriangleMesh middle = box({-0.005, -0.005, -0.005}, {0.005, 0.005, 0.005});
+  for (const double gap : {0.0, -1e-4}) {
+    const auto found = find(check_surface(joined(shapes::transformed(middle, about_x),
+                                                 shapes::transformed(middle, about_y, {1e-3, 2e-3, 2 * h + gap}))),
+                            "self-intersection");
+    EXPECT_EQ(found.has_value(), gap < 0.0) << gap;
+  }
 }
 
 TEST(SurfaceCheck, FacesThatOverlapInAPlaneAreSelfIntersections) {
