@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <stdexcept>
 
 #include "cases/generators/generators.hpp"
 #include "cases/generators/kinds.hpp"
@@ -79,14 +80,16 @@ Problems resolve(const Kind& kind, const Parameters& given, Parameters& complete
   }
   if (!problems.empty()) return problems;
   Values values(complete);
-  kind.complete(values, problems);
-  if (!problems.empty()) return problems;
-  generators::Surface surface;
-  kind.add_faces(values, surface);
-  if (!(surface.expected_triangles(values.number("facet_size")) <= generators::Surface::largest_surface))
+  try {
+    kind.complete(values, problems);
+    if (!problems.empty()) return problems;
+    generators::Surface surface(values.number("facet_size"));
+    kind.add_faces(values, surface);
+  } catch (const std::length_error&) {  // thrown on the way, before they are all in memory
     problems.push_back({"facet_size",
                         "asks for more than 4 million triangles; raise it, or check the unit of the "
                         "lengths (a bare number is in metres)"});
+  }
   return problems;
 }
 

@@ -1,4 +1,5 @@
 #include "cases/generators/faces.hpp"
+#include "cases/generators/outline.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -90,7 +91,9 @@ void add_band(std::string_view solid, const Loop& from, const Loop& to, Surface&
 Loop reversed(const Loop& loop) { return {loop.rbegin(), loop.rend()}; }
 
 int ring_corners(double radius, double facet_size, int at_least) {
-  return std::max(at_least, static_cast<int>(std::ceil(2.0 * std::numbers::pi * radius / facet_size)));
+  const double corners = std::ceil(2.0 * std::numbers::pi * radius / facet_size);
+  refuse_too_many_corners(corners);
+  return std::max(at_least, static_cast<int>(corners));
 }
 
 }  // namespace puffin::cases::generators

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <stdexcept>
 
 namespace puffin::cases::generators {
 namespace {
@@ -48,8 +49,13 @@ double turn_corner(const Vec2& sharp, const Vec2& d, double turn, double radius,
 
 }  // namespace
 
+void refuse_too_many_corners(double corners) {
+  if (!(corners <= 1e6)) throw std::length_error("the facet size asks for more than a million corners of a circle");
+}
+
 int chords(double angle, double radius, double facet_size) {
   const double by_angle = angle / (std::numbers::pi / 30.0), by_size = angle * radius / facet_size;
+  refuse_too_many_corners(by_size);
   return std::max(1, static_cast<int>(std::ceil(std::max(by_angle, by_size) - 1e-9)));
 }
 

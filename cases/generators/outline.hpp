@@ -29,8 +29,11 @@ struct Outline {
 /// inner_radius [m]: rounds the inner side of every corner; the outer side gets the inner radius plus the narrower of
 /// the two legs' widths, so a bend between equal legs is concentric. 0: mitres.
 /// Arcs are chains of chords with their ends on the arc: at most 6 degrees and `facet_size` each.
-/// Valid: turns of less than 180 degrees. Never throws; see `straight` for what does not fit.
+/// Valid: turns of less than 180 degrees; see `straight` for what does not fit.
 Outline outline(const std::vector<Leg>& legs, double inner_radius, double facet_size);
+
+/// Throws std::length_error beyond a million corners: no facet size that fits a surface asks for them.
+void refuse_too_many_corners(double corners);
 
 /// Chords into which an arc is divided.
 int chords(double angle, double radius, double facet_size);

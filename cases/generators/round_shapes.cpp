@@ -58,28 +58,32 @@ void add_round_bend(const Values& v, Surface& surface) {
   const auto frame = [](double a) {
     return std::pair{Vec3(std::cos(a), std::sin(a), 0), Vec3(-std::sin(a), std::cos(a), 0)};
   };
-  std::vector<Loop> rings;
-  rings.push_back(ring(Vec3::Zero(), Vec3::UnitY(), z, radius, n));
+  Loop last;
+  const auto reach = [&](Loop next) {
+    if (last.empty())
+      surface.add("inlet", reversed(next));
+    else
+      add_band("wall", last, next, surface);
+    last = std::move(next);
+  };
+  if (v.number("inlet_length") > 0.0 || inner == 0.0) reach(ring(Vec3::Zero(), Vec3::UnitY(), z, radius, n));
   if (inner > 0.0) {
     const int pieces = chords(angle, inner + 2.0 * radius, v.number("facet_size"));
     for (int k = 0; k <= pieces; ++k) {
       const Vec3 left = frame(angle * k / pieces).second;
-      rings.push_back(ring(pivot - centre_radius * left, left, z, radius, n));
+      reach(ring(pivot - centre_radius * left, left, z, radius, n));
     }
   } else {
     const Vec3 kink(v.number("inlet_length") + tangent_length(v), 0, 0);
-    rings.push_back(ring(kink, frame(0.5 * angle).second / std::cos(0.5 * angle), z, radius, n));
+    reach(ring(kink, frame(0.5 * angle).second / std::cos(0.5 * angle), z, radius, n));
   }
   const auto [along, left] = frame(angle);
   const Vec3 bend_end =
       inner > 0.0 ? Vec3(pivot - centre_radius * left)
                   : Vec3(Vec3(v.number("inlet_length") + tangent_length(v), 0, 0) + tangent_length(v) * along);
   if (v.number("outlet_length") > 0.0 || inner == 0.0)
-    rings.push_back(ring(bend_end + v.number("outlet_length") * along, left, z, radius, n));
-  if (v.number("inlet_length") == 0.0 && inner > 0.0) rings.erase(rings.begin());
-  surface.add("inlet", reversed(rings.front()));
-  for (std::size_t k = 0; k + 1 < rings.size(); ++k) add_band("wall", rings[k], rings[k + 1], surface);
-  surface.add("outlet", rings.back());
+    reach(ring(bend_end + v.number("outlet_length") * along, left, z, radius, n));
+  surface.add("outlet", last);
 }
 
 void complete_bend(Values& v, Problems& problems) {

@@ -19,6 +19,8 @@ using lbm::geometry::TriangleMesh;
 using lbm::geometry::Vec3;
 using Edge = std::pair<int, int>;
 
+constexpr const char* too_many = "the facet size asks for more than 4 million triangles";
+
 /// Area vector of a plane polygon (Newell): its length is the area.
 Vec3 area_vector(const Loop& loop) {
   Vec3 sum = Vec3::Zero();
@@ -139,14 +141,20 @@ void Surface::add(std::string_view solid, Loop outer, std::vector<Loop> holes) {
     if (area_vector(hole).dot(normal) > 0.0) std::reverse(hole.begin(), hole.end());
     face.loops.push_back(std::move(hole));
   }
+  expected_ += expected_triangles(face, facet_size_);
+  if (!(expected_ <= largest_surface)) throw std::length_error(too_many);
   faces_.push_back(std::move(face));
 }
 
-double Surface::expected_triangles(double facet_size) const {
-  double area = 0.0;
-  for (const Face& face : faces_) area += area_vector(face.loops[0]).norm();
+double Surface::expected_triangles(const Face& face, double facet_size) {
   const double edge = 0.75 * facet_size;
-  return area / (0.25 * std::sqrt(3.0) * edge * edge) + static_cast<double>(faces_.size());
+  return 1.0 + area_vector(face.loops[0]).norm() / (0.25 * std::sqrt(3.0) * edge * edge);
+}
+
+double Surface::expected_triangles(double facet_size) const {
+  double sum = 0.0;
+  for (const Face& face : faces_) sum += expected_triangles(face, facet_size);
+  return sum;
 }
 
 std::vector<std::string> Surface::solids() const {
@@ -158,8 +166,7 @@ std::vector<std::string> Surface::solids() const {
 }
 
 TriangleMesh Surface::close(double facet_size) const {
-  if (!(expected_triangles(facet_size) <= largest_surface))
-    throw std::length_error("the facet size asks for more than 4 million triangles");
+  if (!(expected_triangles(facet_size) <= largest_surface)) throw std::length_error(too_many);
   TriangleMesh mesh;
   mesh.solids = solids();
   std::vector<int> rank(solids_.size());

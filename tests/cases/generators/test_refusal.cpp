@@ -3,9 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <stdexcept>
 
 #include "cases/generators/generators.hpp"
+#include "cases/generators/surface.hpp"
 
 namespace puffin::cases {
 namespace {
@@ -92,6 +95,26 @@ TEST(DeviceParameters, with_a_forgotten_unit_are_refused_before_memory_runs_out)
                 .find("metres"),
             std::string::npos);
   EXPECT_NE(problem("box", {{"facet_size", 1e-9}}, "facet_size"), "");
+}
+
+TEST(GeneratorParameters, that_ask_for_too_many_facets_are_refused_on_the_way) {
+  // Faces of 1 m^2 ask for 1/(sqrt(3)/4 0.75^2) = 4.1 triangles of 1 m each, and one a face: 780,000 of them are
+  // enough.
+  generators::Surface surface(1.0);
+  const generators::Loop square{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  std::size_t added = 0;
+  try {
+    for (; added < 1'000'000; ++added) surface.add("wall", square);
+  } catch (const std::length_error&) {
+  }
+  EXPECT_NEAR(static_cast<double>(added), 4e6 / (1.0 + 16.0 / 9.0 * 4.0 / std::sqrt(3.0)), 1.0);
+  for (const double facet : {1e-6, 1e-9, 1e-15})
+    for (const std::string kind : {"pipe", "bend", "obstacle", "l-bend", "omega-bend"}) {
+      Parameters p{{"facet_size", facet}};
+      if (kind == "bend") p["diameter"] = 5.0 * mm, p["inner_radius"] = 5.0 * mm;
+      EXPECT_NE(problem(kind, p, "facet_size").find("more than 4 million triangles"), std::string::npos) << kind;
+    }
+  EXPECT_NE(problem("pipe", {{"length", 500.0}}, "facet_size").find("metres"), std::string::npos);
 }
 
 TEST(BendParameters, that_cannot_be_built_are_refused) {
