@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numeric>
 
+#include "lbm/geometry/point_windows.hpp"
 #include "lbm/geometry/triangle_tree.hpp"
 
 namespace puffin::lbm::geometry {
@@ -105,13 +107,16 @@ std::vector<int> nesting(const TriangleMesh& mesh, const Shells& shells) {
       high[s] = high[s].cwiseMax(v);
     }
   }
+  std::vector<int> all(shells.count);
+  std::iota(all.begin(), all.end(), 0);
+  const PointWindows lows(low, all);
   for (int outer = 0; outer < shells.count; ++outer) {
     std::unique_ptr<TriangleTree> tree;
-    for (int inner = 0; inner < shells.count; ++inner) {
-      // What lies inside lies inside the box, but for the rounding of single precision.
-      const Vec3 rounding = Vec3::Constant(1e-6 * (high[outer] - low[outer]).norm());
-      if (inner == outer || (low[inner].array() < (low[outer] - rounding).array()).any() ||
-          (high[inner].array() > (high[outer] + rounding).array()).any())
+    // What lies inside lies inside the box, but for the rounding of single precision.
+    const Vec3 rounding = Vec3::Constant(1e-6 * (high[outer] - low[outer]).norm());
+    const Vec3 from = low[outer] - rounding, to = high[outer] + rounding;
+    for (const int inner : lows.candidates(from, to)) {
+      if (inner == outer || (low[inner].array() < from.array()).any() || (high[inner].array() > to.array()).any())
         continue;
       if (!tree) tree = std::make_unique<TriangleTree>(part[outer]);
       if (tree->inside(farthest_from(*tree, part[inner]))) ++depth[inner];
@@ -124,7 +129,8 @@ std::vector<Defect> check_shells(const TriangleMesh& mesh, const Adjacency& adja
   std::vector<Defect> found;
   const Shells shells = find_shells(mesh, adjacency);
   const std::vector<double> volume = shell_volumes(mesh, shells);
-  const std::vector<int> depth = nesting(mesh, shells);
+  // Open surfaces have no inside, and may be of as many parts as triangles.
+  const std::vector<int> depth = closed ? nesting(mesh, shells) : std::vector<int>(shells.count, 0);
   std::vector<Vec3> first(shells.count, Vec3::Zero());
   for (std::size_t i = mesh.triangles.size(); i-- > 0;) {
     first[shells.of_triangle[i]] = mesh.corner(static_cast<int>(i), 0);
@@ -144,7 +150,7 @@ std::vector<Defect> check_shells(const TriangleMesh& mesh, const Adjacency& adja
               "--repair");
     }
     if (depth[s] > 0) {
-      const bool twice = closed && depth[s] % 2 == 1 && volume[s] > 0.0;
+      const bool twice = depth[s] % 2 == 1 && volume[s] > 0.0;
       const std::string lies = "the part of the surface at " + place_text(first[s]) + " lies inside another";
       if (twice && !nested.fatal) {
         nested.message = lies +

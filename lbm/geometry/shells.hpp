@@ -24,7 +24,8 @@ std::vector<double> shell_volumes(const TriangleMesh& mesh, const Shells& shells
 /// apart.
 std::vector<int> nesting(const TriangleMesh& mesh, const Shells& shells);
 
-/// The defects "inside out", "disconnected part", "nested shell". `closed`: volumes mean something.
+/// The defects "inside out", "disconnected part", "nested shell". `closed`: volumes mean something; parts of a surface
+/// that is not are not asked whether they lie inside each other.
 std::vector<Defect> check_shells(const TriangleMesh& mesh, const Adjacency& adjacency, bool closed);
 
 }  // namespace puffin::lbm::geometry

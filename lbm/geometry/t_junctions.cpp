@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <tuple>
 
+#include "lbm/geometry/point_windows.hpp"
+
 namespace puffin::lbm::geometry {
 
 namespace {
@@ -34,24 +36,20 @@ std::vector<TJunction> find_t_junctions(const TriangleMesh& mesh, const Adjacenc
     }
   if (rims.empty()) return {};
   const double tolerance = tolerance_of(mesh);
-  std::sort(corners.begin(), corners.end(), [&](int a, int b) {
-    const double xa = mesh.vertices[a].x(), xb = mesh.vertices[b].x();
-    return xa != xb ? xa < xb : a < b;
-  });
-  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  const PointWindows windows(mesh.vertices, corners);
   std::vector<TJunction> found;
   for (const Rim& rim : rims) {
     const auto& tri = mesh.triangles[rim.triangle];
     const Vec3 &a = mesh.vertices[tri[rim.edge]], &b = mesh.vertices[tri[(rim.edge + 1) % 3]];
     const Vec3 ab = b - a;
-    const auto begin = std::partition_point(corners.begin(), corners.end(), [&](int v) {
-      return mesh.vertices[v].x() < std::min(a.x(), b.x()) - tolerance;
-    });
-    for (auto v = begin; v != corners.end() && mesh.vertices[*v].x() <= std::max(a.x(), b.x()) + tolerance; ++v) {
-      if (*v == tri[0] || *v == tri[1] || *v == tri[2]) continue;
-      const double at = ab.dot(mesh.vertices[*v] - a) / ab.squaredNorm();
-      if (!(at > 0.0 && at < 1.0) || (a + at * ab - mesh.vertices[*v]).norm() > tolerance) continue;
-      found.push_back({rim.triangle, rim.edge, *v, at});
+    const Vec3 low = a.cwiseMin(b).array() - tolerance, high = a.cwiseMax(b).array() + tolerance;
+    for (const int v : windows.candidates(low, high)) {
+      const Vec3& x = mesh.vertices[v];
+      if ((x.array() < low.array()).any() || (x.array() > high.array()).any()) continue;
+      if (v == tri[0] || v == tri[1] || v == tri[2]) continue;
+      const double at = ab.dot(x - a) / ab.squaredNorm();
+      if (!(at > 0.0 && at < 1.0) || (a + at * ab - x).norm() > tolerance) continue;
+      found.push_back({rim.triangle, rim.edge, v, at});
     }
   }
   std::sort(found.begin(), found.end(), [](const TJunction& p, const TJunction& q) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "lbm/geometry/point_windows.hpp"
 #include "lbm/geometry/surface_check.hpp"
 #include "tests/lbm/geometry/shapes.hpp"
 
@@ -117,6 +118,33 @@ TEST(SurfaceCheck, SeparateAndNestedPartsAreToldApart) {
   EXPECT_NE(find(body, "nested shell")->message.find("a body in the flow"), std::string::npos);
   EXPECT_FALSE(find(body, "inside out"));
   EXPECT_FALSE(find(body, "disconnected part"));
+}
+
+TEST(SurfaceCheck, PartsOfAnOpenSurfaceAreNotAskedWhetherOneLiesInAnother) {
+  TriangleMesh mesh = joined(cube(), turned(box({0.004, 0.004, 0.004}, {0.006, 0.006, 0.006})));
+  shapes::remove_triangle(mesh, 0);
+  const auto defects = check_surface(mesh);
+  EXPECT_TRUE(find(defects, "hole"));
+  EXPECT_TRUE(find(defects, "disconnected part"));
+  EXPECT_FALSE(find(defects, "nested shell"));
+}
+
+TEST(PointWindows, LookAtFewPointsOfASheetOrOfLongEdgesWhateverTheAxis) {
+  // n points on a line across each axis in turn; boxes as long as another axis and 1/n wide hold one of them.
+  constexpr int n = 1000;
+  for (int along = 0; along < 3; ++along) {
+    std::vector<Vec3> points(n, Vec3::Zero());
+    std::vector<int> all(n);
+    for (int k = 0; k < n; ++k) points[k][along] = k, all[k] = k;
+    const PointWindows windows(points, all);
+    for (int k = 0; k < n; ++k) {
+      Vec3 low = Vec3::Constant(-1.0), high = Vec3::Constant(1e3);
+      low[along] = k - 0.5;
+      high[along] = k + 0.5;
+      ASSERT_EQ(windows.candidates(low, high).size(), 1u);
+      EXPECT_EQ(windows.candidates(low, high)[0], k);
+    }
+  }
 }
 
 TEST(SurfaceCheck, SelfIntersectionsAreFoundAndTouchingFacesAreNot) {
