@@ -130,17 +130,32 @@ void turn_facets(TriangleMesh& mesh, const std::vector<char>& turn, Repair& done
   }
 }
 
-// Parts that point into the volume they enclose, unless they lie inside another part (a body in the flow).
-std::vector<char> inside_out(const TriangleMesh& mesh) {
+struct Senses {
+  std::vector<char> wrong;  // per triangle: of a part that is in nothing else and points into itself
+  bool right = true;        // such parts there are none, and all that lie in another are bodies in the flow
+};
+
+Senses senses_of(const TriangleMesh& mesh) {
   const Shells shells = find_shells(mesh, Adjacency(mesh));
   const auto volume = shell_volumes(mesh, shells);
   const auto depth = nesting(mesh, shells);
-  std::vector<char> turn(mesh.triangles.size(), 0);
-  for (std::size_t t = 0; t < turn.size(); ++t) {
-    const int s = shells.of_triangle[t];
-    turn[t] = depth[s] % 2 == 0 && volume[s] < 0.0;
+  Senses senses;
+  for (const int s : shells.of_triangle) {
+    senses.wrong.push_back(depth[s] % 2 == 0 && volume[s] < 0.0);
+    senses.right = senses.right && (depth[s] % 2 == 0 ? volume[s] >= 0.0 : volume[s] <= 0.0);
   }
-  return turn;
+  return senses;
+}
+
+// Parts that point into the volume they enclose, unless they lie inside another part (a body in the flow); all parts if
+// the surface is right when it is turned as a whole.
+std::vector<char> inside_out(const TriangleMesh& mesh) {
+  const Senses as_it_is = senses_of(mesh);
+  if (std::count(as_it_is.wrong.begin(), as_it_is.wrong.end(), 1) == 0) return as_it_is.wrong;
+  TriangleMesh turned = mesh;
+  for (auto& t : turned.triangles) std::swap(t[1], t[2]);
+  if (senses_of(turned).right) return std::vector<char>(mesh.triangles.size(), 1);
+  return as_it_is.wrong;
 }
 
 }  // namespace

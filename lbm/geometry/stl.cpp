@@ -1,5 +1,7 @@
 #include "lbm/geometry/stl.hpp"
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -68,6 +70,11 @@ bool begins_like_text(std::string_view bytes) {
   return (starts("solid") || starts("facet")) && bytes.substr(0, 4096).find('\0') == std::string_view::npos;
 }
 
+// What stands where a binary file has its header and the number of its triangles.
+bool is_text(std::string_view bytes) {
+  return std::all_of(bytes.begin(), bytes.end(), [](unsigned char c) { return std::isprint(c) || std::isspace(c); });
+}
+
 bool has_binary_length(std::string_view bytes) {
   return bytes.size() >= start_bytes &&
          bytes.size() == start_bytes + triangle_bytes * static_cast<std::size_t>(load_u32(bytes.data() + header_bytes));
@@ -90,6 +97,11 @@ void parse_binary(const std::string& path, std::string_view bytes, double unit, 
   }
   const std::size_t claimed = load_u32(bytes.data() + header_bytes);
   const std::size_t held = (bytes.size() - start_bytes) / triangle_bytes;
+  if (claimed != held && is_text(bytes.substr(0, start_bytes))) {
+    throw StlError(path +
+                   ": error: the file is text that does not begin with 'solid'; take out what stands before it, or it "
+                   "is no STL");
+  }
   if (claimed > held) {
     throw StlError(path + ": error: the header promises " + std::to_string(claimed) +
                    " triangles but the file ends in " + "triangle " + std::to_string(held + 1) +

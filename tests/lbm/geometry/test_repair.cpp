@@ -85,6 +85,15 @@ TEST(Repair, ABodyInTheFlowStaysABody) {
   EXPECT_EQ(enclosed_volume(mesh), volume);
 }
 
+TEST(Repair, ASurfaceTurnedInsideOutAsAWholeIsTurnedBackWithTheBodyInIt) {
+  const TriangleMesh right = shapes::joined(shapes::box({0, 0, 0}, {0.01, 0.01, 0.01}),
+                                            shapes::turned(shapes::sphere(0.002, 12, {0.005, 0.005, 0.005})));
+  TriangleMesh mesh = shapes::turned(right);
+  EXPECT_EQ(count(repair(mesh), "turned facets"), mesh.triangles.size());
+  EXPECT_NEAR(enclosed_volume(mesh), enclosed_volume(right), 1e-18);
+  for (const Defect& d : check_surface(mesh)) EXPECT_FALSE(d.fatal) << d.message;
+}
+
 TEST(Repair, DuplicateAndDegenerateFacetsGo) {
   TriangleMesh mesh = torus();
   const std::size_t before = mesh.triangles.size();

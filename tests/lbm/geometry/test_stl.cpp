@@ -207,6 +207,8 @@ TEST_F(StlFiles, BadBinaryIsRefusedWithItsTriangleAndInBoundedMemory) {
        "Dear Sir,\nplease find enclosed the device, in the enclosed envelope, with all the dimensions asked "
        "for.\n",
        "no STL"},
+      {"a comment first", std::string("// exported from the CAD program by someone who likes comments\n") + one_facet,
+       "text that does not begin with 'solid'"},
   };
   for (const auto& [name, bytes, expected] : zoo) {
     EXPECT_NE(complaint(bytes).find(expected), std::string::npos) << name << ": " << complaint(bytes);
