@@ -97,6 +97,10 @@ void warn(const Case& c, Assessment& a) {
         1e3 * i.hydraulic_diameter / fewest_cells);
     say(text);
   }
+  const bool whole_cells = c.numerics.wall == WallScheme::ibm || c.numerics.wall == WallScheme::psm;
+  if (whole_cells && a.thinnest_wall < 2.0 * n.dx)
+    say("the thinnest wall, " + format_quantity(a.thinnest_wall, unit::length) +
+        ", has fewer than 2 cells, and walls \"ibm\" and \"psm\" leak round such: lower dx, or take \"bouzidi\"");
   if (a.thin_walls > 0)
     say(std::to_string(a.thin_walls) +
         " links between cells cross a wall thinner than a cell; the flow is stopped there half-way: lower dx");
@@ -165,6 +169,7 @@ Assessment assess(const Case& given, const Surface& s) {
       a.cells_fluid = static_cast<std::int64_t>(report.cells_fluid);
       a.volume_voxels = report.volume_voxels;
       a.narrowest_gap = report.narrowest_gap;
+      a.thinnest_wall = report.thinnest_wall;
       narrowing = section_ratio(c, s, tree, voxels);
     } catch (const std::invalid_argument& e) {
       throw geometry::GeometryError(e.what());

@@ -1,6 +1,7 @@
 #pragma once
 // What a case will be on the lattice, before it is run: cells, step, stability, memory, and what to watch.
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,8 +29,9 @@ struct Assessment {
   std::int64_t cells_fluid = 0;
   double volume_voxels = 0.0;  // [m^3]
   double narrowest_gap = 0.0;  // [m], infinity if no walls face each other; 0: not measured
-  std::size_t thin_walls = 0;  // pairs of fluid cells with a wall between them
-  double memory = 0.0;         // [byte], an estimate
+  double thinnest_wall = std::numeric_limits<double>::infinity();  // [m], infinity if none lies between fluid
+  std::size_t thin_walls = 0;                                      // pairs of fluid cells with a wall between them
+  double memory = 0.0;                                             // [byte], an estimate
   std::vector<std::string> warnings;
 };
 
