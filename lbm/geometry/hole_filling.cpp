@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <set>
 
 #include "lbm/geometry/adjacency.hpp"
 
@@ -46,11 +47,22 @@ std::vector<std::vector<int>> find_rims(const TriangleMesh& mesh) {
   return rims;
 }
 
-bool is_a_triangle_already(const TriangleMesh& mesh, const std::vector<int>& rim) {
-  return std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const std::array<int, 3>& t) {
-    return std::is_permutation(t.begin(), t.end(), rim.begin(), rim.end());
-  });
-}
+// The triangles there are, in any sense; put in order when the first rim of three edges asks.
+class Known {
+ public:
+  bool holds(const TriangleMesh& mesh, const std::vector<int>& rim) {
+    for (; next_ < mesh.triangles.size(); ++next_) sorted_.insert(in_order(mesh.triangles[next_]));
+    return sorted_.count(in_order({rim[0], rim[1], rim[2]})) > 0;
+  }
+
+ private:
+  static std::array<int, 3> in_order(std::array<int, 3> t) {
+    std::sort(t.begin(), t.end());
+    return t;
+  }
+  std::set<std::array<int, 3>> sorted_;
+  std::size_t next_ = 0;
+};
 
 std::vector<std::array<int, 3>> least_area(const TriangleMesh& mesh, const std::vector<int>& rim) {
   const int n = static_cast<int>(rim.size());
@@ -89,6 +101,7 @@ std::vector<std::array<int, 3>> least_area(const TriangleMesh& mesh, const std::
 
 FilledHoles fill_holes(TriangleMesh& mesh, double longest_rim, bool fill_single_facets) {
   FilledHoles filled;
+  Known known;
   int solid = -1;
   for (const auto& rim : find_rims(mesh)) {
     if (rim.size() < 3 || rim.size() > most_corners) continue;
@@ -99,7 +112,7 @@ FilledHoles fill_holes(TriangleMesh& mesh, double longest_rim, bool fill_single_
       middle += mesh.vertices[rim[i]] / static_cast<double>(rim.size());
     }
     const bool one_facet = fill_single_facets && rim.size() == 3;
-    if ((length > longest_rim && !one_facet) || (rim.size() == 3 && is_a_triangle_already(mesh, rim))) continue;
+    if ((length > longest_rim && !one_facet) || (rim.size() == 3 && known.holds(mesh, rim))) continue;
     if (solid < 0) {
       solid = static_cast<int>(mesh.solids.size());
       mesh.solids.push_back("filled-hole");
