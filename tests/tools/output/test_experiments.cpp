@@ -67,6 +67,19 @@ TEST(Experiments, AShortRowLeavesItsLastColumnsEmpty) {
   EXPECT_EQ(all[0].value, 0.5);
 }
 
+void write_run(const Scratch& folder, const std::string& name, const Summary& s) {
+  std::filesystem::create_directories(folder / name);
+  write_summary(folder / name / "summary.json", s);
+}
+
+/// study.json of cases whose jobs are all done.
+void write_plan(const Scratch& folder, const std::string& cases, const std::vector<std::string>& jobs) {
+  std::string list;
+  for (const std::string& job : jobs)
+    list += (list.empty() ? "" : ", ") + (R"({"id": ")" + job + R"(", "state": "done"})");
+  write_whole(folder / "study.json", R"({"study": "s.toml", "cases": [)" + cases + R"(], "jobs": [)" + list + "]}");
+}
+
 /// A study with one finished run whose FFE is 0.5 and whose pressure drop is 3000 Pa.
 void write_study(const Scratch& folder) {
   Summary s;
@@ -119,6 +132,25 @@ TEST(StudyReport, HoldsExperimentsAssumptionsPhasesAndSkips) {
                            "the air is dry", "What was skipped", "exchanges", "L2"})
     EXPECT_NE(page.find(part), std::string::npos) << part;
   EXPECT_EQ(page.find("http://"), std::string::npos);
+}
+
+// What all replicates of a case say is of the case, what one says is of that one.
+TEST(StudyReport, TellsTheWarningsOfItsRuns) {
+  const Scratch folder;
+  Summary s;
+  s.state = "finished";
+  s.warnings = {"the inlet has 4.9 cells"};
+  write_run(folder, "A/seed-1", s);
+  write_run(folder, "B/seed-1", s);
+  s.warnings.push_back("step 7: half the time step");
+  write_run(folder, "A/seed-2", s);
+  write_plan(folder, R"({"name": "A", "runs": [{"job": "A/seed-1"}, {"job": "A/seed-2"}]},
+                        {"name": "B", "runs": [{"job": "B/seed-1"}]})",
+             {"A/seed-1", "A/seed-2", "B/seed-1"});
+  const std::string page = make_study_report(folder.path());
+  EXPECT_NE(page.find("<h2>Warnings</h2>"), std::string::npos);
+  EXPECT_NE(page.find("the inlet has 4.9 cells <span class=soft>(A, B)</span>"), std::string::npos);
+  EXPECT_NE(page.find("step 7: half the time step <span class=soft>(A/seed-2)</span>"), std::string::npos);
 }
 
 }  // namespace

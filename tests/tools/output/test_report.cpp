@@ -79,6 +79,23 @@ TEST(Report, ADivergedRunSaysWhere) {
   EXPECT_TRUE(has(text, "cell (88, 14, 9)"));
 }
 
+TEST(Report, WarningsStandBeforeTheResults) {
+  const Scratch folder;
+  Summary summary = synthetic_summary();
+  summary.warnings = {"the inlet has 4.9 cells & more", "step 7: went on with half the time step"};
+  summary.limited = 7593, summary.backflow = 18511;
+  write_summary(folder / "summary.json", summary);
+  const std::string text = make_report(folder.path());
+  const std::size_t at = text.find("<div class=alarm><b>This run warns:");
+  ASSERT_NE(at, std::string::npos);
+  EXPECT_LT(at, text.find("<h2>"));
+  EXPECT_TRUE(has(text, "<li>the inlet has 4.9 cells &amp; more</li>"));
+  EXPECT_TRUE(has(text, "<li>step 7: went on with half the time step</li>"));
+  EXPECT_TRUE(has(text, "7&#8239;593 ("));
+  EXPECT_TRUE(has(text, "18&#8239;511 ("));
+  EXPECT_FALSE(has(whole_report(), "This run warns"));
+}
+
 TEST(Report, ABareSummaryIsEnough) {
   const Scratch folder;
   Summary summary;

@@ -59,6 +59,14 @@ std::string head(const RunResults& run) {
   return out + "</div>\n";
 }
 
+/// What the run warned of, before anything that it came to.
+std::string warnings(const RunResults& run) {
+  if (run.summary.warnings.empty()) return "";
+  std::string out = "<div class=alarm><b>This run warns:</b>\n<ul>\n";
+  for (const std::string& text : run.summary.warnings) out += "<li>" + escaped(text) + "</li>\n";
+  return out + "</ul></div>\n";
+}
+
 std::string geometry(const RunResults& run) {
   std::string out = heading("The device");
   if (!can_render(run.folder, View::geometry)) return out + left_out("this run has written no walls (vtk/walls.pvd).");
@@ -151,6 +159,14 @@ std::string work(const RunResults& run) {
   return out + "<h3>What was skipped</h3>\n" + table({"", "times", "saved, estimated"}, rows);
 }
 
+/// "7 593 (0.0003 % of the cell updates)"
+std::string acted(std::int64_t times, const Summary& s) {
+  const double updates = static_cast<double>(s.cells_active) * static_cast<double>(s.steps);
+  return grouped(times) + (times > 0 && updates > 0
+                               ? " (" + percent(static_cast<double>(times) / updates) + " of the cell updates)"
+                               : "");
+}
+
 std::string numerics(const RunResults& run) {
   const Summary& s = run.summary;
   Rows rows{{"cell size dx", significant(s.dx * 1e3, 4) + " mm"},
@@ -160,6 +176,8 @@ std::string numerics(const RunResults& run) {
             {"time step dt", significant(s.dt_min * 1e6, 3) + " to " + significant(s.dt_max * 1e6, 3) + " &micro;s"},
             {"smallest relaxation time tau", significant(s.tau_min, 6)},
             {"largest lattice Mach number", significant(s.mach_max, 3)},
+            {"limited: cells that the positivity limiter acted in, over all steps", acted(s.limited, s)},
+            {"back-flow cut: cells at outlets, over all steps", acted(s.backflow, s)},
             {"million fluid-cell updates a second", significant(s.mlups, 3)},
             {"million computed-cell updates a second", significant(s.mlups_active, 3)},
             {"peak memory", significant(s.memory_peak / 1048576, 3) + " MiB"}};
@@ -194,8 +212,8 @@ std::string make_report(const fs::path& folder) {
   if (fs::exists(run.folder / "history.csv")) run.history = read_csv(run.folder / "history.csv");
   write_summary_table(run.folder);
   std::string body = head(run);
-  for (const auto section : {geometry, carriers, emission_section, outcome_section, reference, flow_section, slice,
-                             collisions, wall_map, work, numerics, assumptions, reproduce}) {
+  for (const auto section : {warnings, geometry, carriers, emission_section, outcome_section, reference, flow_section,
+                             slice, collisions, wall_map, work, numerics, assumptions, reproduce}) {
     body += section(run);
   }
   return page(run.summary.name, body);

@@ -1,4 +1,4 @@
-// Simulation beside experiment, the assumptions, and where the time went.
+// Simulation beside experiment, and where the time went.
 
 #include <algorithm>
 
@@ -122,31 +122,6 @@ std::string experiment_section(const StudyResults& results) {
   return out +
          "<p>Means by copy of the device, in brackets the relative standard deviation; then every test. These numbers: "
          "experiments.csv and experiments-summary.csv.</p>\n";
-}
-
-std::string assumption_section(const StudyResults& results) {
-  std::vector<std::pair<std::string, std::vector<std::string>>> all;
-  for (const StudyCaseResult& c : results.cases)
-    if (const StudyRun* run = first_done(c))
-      for (const std::string& text : run->summary->assumptions) {
-        auto found = std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.first == text; });
-        if (found == all.end()) all.push_back({text, {}}), found = all.end() - 1;
-        found->second.push_back(c.name);
-      }
-  std::string out = "<h2>Assumptions</h2>\n";
-  if (all.empty()) return out + "<p>No finished case marks any.</p>\n";
-  const auto cases = std::count_if(results.cases.begin(), results.cases.end(),
-                                   [](const StudyCaseResult& c) { return first_done(c) != nullptr; });
-  out += "<ul>\n";
-  for (const auto& [text, who] : all) {
-    std::string names;
-    for (const std::string& name : who) names += (names.empty() ? "" : ", ") + name;
-    out +=
-        "<li>" + escaped(text) +
-        (static_cast<std::ptrdiff_t>(who.size()) < cases ? " <span class=soft>(" + escaped(names) + ")</span>" : "") +
-        "</li>\n";
-  }
-  return out + "</ul>\n";
 }
 
 std::string effort_section(const StudyResults& results) {
