@@ -157,6 +157,41 @@ TEST(Chart, APeakSurvivesTheThinning) {
   EXPECT_TRUE(std::regex_search(svg.substr(points), edge));
 }
 
+/// Right ends of the legend's names, at 7 pixel a letter (the mean of letters of 13), and their lowest line.
+std::pair<double, double> legend_reach(const std::string& svg) {
+  double right = 0.0, lowest = 0.0;
+  const std::regex entry("rx=\"2\" fill=\"[^\"]*\"/><text x=\"([0-9.]+)\" y=\"([0-9.]+)\"[^>]*>([^<]*)</text>");
+  for (std::sregex_iterator it(svg.begin(), svg.end(), entry), end; it != end; ++it) {
+    right = std::max(right, std::stod((*it)[1]) + 7.0 * static_cast<double>((*it)[3].length()));
+    lowest = std::max(lowest, std::stod((*it)[2]));
+  }
+  return {right, lowest};
+}
+
+// The legend of a study's seven cases: all of it inside the picture of 760, and above the plot.
+TEST(Chart, ALongLegendTakesMoreRowsAboveThePlot) {
+  LineChart chart;
+  BarChart bars;
+  bars.groups.push_back({"FFE", {}});
+  for (int n = 0; n < 7; ++n) {
+    const std::string name = "A case with a rather long name " + std::to_string(n);
+    chart.curves.push_back({name, {0, 1}, {0, 1}});
+    bars.groups[0].bars.push_back({name, 0.5, {}, {}});
+  }
+  const std::string lines = line_chart(chart), lying = bar_chart(bars);
+  const auto [right, lowest] = legend_reach(lines);
+  EXPECT_LE(right, 760 - 22);
+  EXPECT_LE(legend_reach(lying).first, 760 - 22);
+  std::smatch top;  // the uppermost line of the grid; the axis ends at 1, where the curves do
+  ASSERT_TRUE(std::regex_search(lines, top, std::regex("points=\"[0-9.]+,[0-9.]+ [0-9.]+,([0-9.]+) ")));
+  EXPECT_GT(lowest, 21.0);
+  EXPECT_GT(std::stod(top[1]), lowest + 15);
+  chart.curves.resize(1);
+  EXPECT_TRUE(has(line_chart(chart), "viewBox=\"0 0 760.0 330.0\""));
+  chart.curves[0].name = std::string(200, 'n');
+  EXPECT_TRUE(has(line_chart(chart), "textLength=\"640.0\""));
+}
+
 TEST(Chart, NoPointsOrStrangeOnesStillGiveAChart) {
   LineChart chart;
   chart.curves = {{"none", {}, {}}, {"nan", {0, 1}, {std::nan(""), std::nan("")}}};

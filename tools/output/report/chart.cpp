@@ -15,7 +15,7 @@ using namespace svg;
 
 namespace {
 
-constexpr double full_width = 760, height = 330, left = 78, right = 22, top = 46, bottom = 54;
+constexpr double full_width = 760, left = 78, right = 22, bottom = 54;
 /// One axis: from a round number to a round number.
 struct Axis {
   double low = 0.0, high = 1.0, step = 1.0;
@@ -52,7 +52,10 @@ std::vector<std::size_t> thinned(const Curve& curve) {
 }  // namespace
 
 std::string line_chart(const LineChart& chart) {
-  const double width = chart.width;
+  std::vector<std::string> names;
+  for (const Curve& curve : chart.curves) names.push_back(curve.name);
+  const double width = chart.width, more = legend_growth(names, left, width - right);
+  const double height = 330 + more, top = 46 + more;
   double x0 = std::numeric_limits<double>::infinity(), x1 = -x0, y0 = 0.0, y1 = chart.y_at_least;
   for (const auto& curve : chart.curves) {
     for (std::size_t i = 0; i < std::min(curve.x.size(), curve.y.size()); ++i) {
@@ -90,10 +93,8 @@ std::string line_chart(const LineChart& chart) {
     svg += text_at(px(marker.x) + (near_end ? -5 : 5), below ? top + 10 : top - 5, escaped(marker.text),
                    near_end ? "end" : "start", soft_colour, " font-size=\"12\"");
   }
-  std::vector<std::string> names;
   for (std::size_t c = 0; c < chart.curves.size(); ++c) {
     const Curve& curve = chart.curves[c];
-    names.push_back(curve.name);
     std::string points;
     for (const std::size_t i : thinned(curve)) {
       if (!std::isfinite(curve.x[i]) || !std::isfinite(curve.y[i])) continue;
@@ -102,7 +103,7 @@ std::string line_chart(const LineChart& chart) {
     svg += "<polyline fill=\"none\" stroke=\"" + hex(distinct(static_cast<int>(c))) +
            "\" stroke-width=\"2\" stroke-linejoin=\"round\" points=\"" + points + "\"/>\n";
   }
-  svg += legend(names, left, 20);
+  svg += legend(names, left, 20, width - right);
   svg += text_at(0.5 * (left + width - right), height - 10, escaped(chart.x_label), "middle");
   svg += text_at(0, 0, escaped(chart.y_label), "middle", text_colour,
                  " transform=\"translate(18 " + coordinate(0.5 * (top + height - bottom)) + ") rotate(-90)\"");
@@ -122,7 +123,7 @@ std::string bar_chart(const BarChart& chart) {
     }
   }
   const bool named = series.size() > 1;
-  const double first = named ? 38 : 8, total = first + rows + 46;
+  const double first = named ? 38 + legend_growth(series, label, width - right) : 8, total = first + rows + 46;
   const Axis axis(0.0, largest > 0 ? largest : 1.0);
   const auto px = [&](double v) { return label + (width - label - end) * v / axis.high; };
   std::string svg = open(width, total);
@@ -157,7 +158,7 @@ std::string bar_chart(const BarChart& chart) {
     svg += "\n";
   }
   svg += line_at(label, first, label, first + rows, soft_colour);
-  if (named) svg += legend(series, label, 20);
+  if (named) svg += legend(series, label, 20, width - right);
   svg += text_at(0.5 * (label + width - end), total - 6, escaped(chart.value_label), "middle");
   return svg + "</svg>\n";
 }

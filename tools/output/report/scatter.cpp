@@ -14,7 +14,7 @@ using namespace svg;
 
 namespace {
 
-constexpr double width = 860, height = 520, left = 86, right = 30, top = 66, bottom = 60;
+constexpr double width = 860, left = 86, right = 30, bottom = 60;
 
 /// A logarithmic axis in pixels.
 class LogAxis {
@@ -118,6 +118,9 @@ std::string scatter_chart(const ScatterChart& chart) {
       x0 = std::min(x0, p.x), x1 = std::max(x1, p.x);
       y0 = std::min(y0, p.y), y1 = std::max(y1, std::max(p.y, p.high.value_or(0.0)));
     }
+  std::vector<std::string> names;
+  for (const ScatterSeries& s : chart.series) names.push_back(s.name);
+  const double more = legend_growth(names, left, width - right), height = 520 + more, top = 66 + more;
   if (!(x1 > 0.0)) x0 = y0 = 1.0, x1 = y1 = 10.0;
   const LogAxis x(x0, x1, left, width - right), y(y0, y1, height - bottom, top);
   std::string svg = open(width, height);
@@ -131,17 +134,15 @@ std::string scatter_chart(const ScatterChart& chart) {
     svg += text_at(x.pixel(tick), height - bottom + 20, short_number(tick), "middle", soft_colour);
   }
   svg += line_at(left, height - bottom, width - right, height - bottom, soft_colour);
-  std::vector<std::string> names;
   for (std::size_t i = 0; i < chart.series.size(); ++i) {
     const ScatterSeries& s = chart.series[i];
     const std::string colour = hex(distinct(static_cast<int>(i)));
-    names.push_back(s.name);
     if (s.joined || s.steps) svg += connection(s, colour, x, y);
     for (const auto& p : s.points)
       if (drawable(p)) svg += point_mark(p, colour, x, y);
   }
   svg += labels(chart.series, x, y);
-  svg += legend(names, left, 48);
+  svg += legend(names, left, 48, width - right);
   svg += text_at(0.5 * (left + width - right), height - 14, escaped(chart.x_label), "middle");
   svg += text_at(0, 0, escaped(chart.y_label), "middle", text_colour,
                  " transform=\"translate(20 " + coordinate(0.5 * (top + height - bottom)) + ") rotate(-90)\"");

@@ -6,6 +6,31 @@
 #include "tools/output/report/html.hpp"
 
 namespace puffin::output::svg {
+namespace {
+
+constexpr double row_height = 20, swatch = 20, between = 20, letter = 7.6;  // [pixel] of letters of 13
+
+/// Where a name of a legend stands.
+struct Place {
+  double x;
+  int row;
+  double length;  // of the name
+};
+
+std::vector<Place> legend_places(const std::vector<std::string>& names, double x, double right) {
+  std::vector<Place> places;
+  double at = x;
+  int row = 0;
+  for (const std::string& name : names) {
+    const double length = letter * static_cast<double>(name.size());
+    if (at > x && at + swatch + length > right) at = x, ++row;
+    places.push_back({at, row, length});
+    at += swatch + length + between;
+  }
+  return places;
+}
+
+}  // namespace
 
 std::string hex(const Colour& c) {
   char text[16];
@@ -42,15 +67,22 @@ std::string standalone(const std::string& svg) {
          "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>" + svg.substr(end);
 }
 
-std::string legend(const std::vector<std::string>& names, double x, double y) {
+std::string legend(const std::vector<std::string>& names, double x, double y, double right) {
   std::string out;
+  const std::vector<Place> places = legend_places(names, x, right);
   for (std::size_t i = 0; i < names.size(); ++i) {
-    out += "<rect x=\"" + coordinate(x) + "\" y=\"" + coordinate(y - 10) +
+    const double at = places[i].x, line = y + places[i].row * row_height, room = right - at - swatch;
+    const bool squeezed = places[i].length > room;
+    out += "<rect x=\"" + coordinate(at) + "\" y=\"" + coordinate(line - 10) +
            "\" width=\"14\" height=\"12\" rx=\"2\" fill=\"" + hex(distinct(static_cast<int>(i))) + "\"/>" +
-           text_at(x + 20, y, escaped(names[i]), "start");
-    x += 40 + 7.6 * static_cast<double>(names[i].size());
+           text_at(at + swatch, line, escaped(names[i]), "start", text_colour,
+                   squeezed ? " lengthAdjust=\"spacingAndGlyphs\" textLength=\"" + coordinate(room) + "\"" : "");
   }
   return out;
+}
+
+double legend_growth(const std::vector<std::string>& names, double x, double right) {
+  return names.empty() ? 0.0 : row_height * legend_places(names, x, right).back().row;
 }
 
 }  // namespace puffin::output::svg

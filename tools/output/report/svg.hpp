@@ -23,7 +23,10 @@ std::string line_at(double x0, double y0, double x1, double y1, const std::strin
 std::string open(double width, double height);
 /// A drawing as a file of its own: with its name space and a white ground.
 std::string standalone(const std::string& svg);
-/// Colour swatches with names in one row, from (x, y) on.
-std::string legend(const std::vector<std::string>& names, double x, double y);
+/// Colour swatches with names from (x, y) on, in as many rows as they need to end before `right`; a name that is longer
+/// than a row is squeezed into it.
+std::string legend(const std::vector<std::string>& names, double x, double y, double right);
+/// By how much its further rows move down what is below.
+double legend_growth(const std::vector<std::string>& names, double x, double right);
 
 }  // namespace puffin::output::svg
