@@ -5,9 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "tools/output/csv_file.hpp"
 #include "tools/output/json_fields.hpp"
-#include "tools/output/output_folder.hpp"
 
 namespace puffin::output {
 namespace {
@@ -23,43 +21,28 @@ double student(int nu) {
   return nu <= 30 ? table[static_cast<std::size_t>(nu - 1)] : 1.96 + 2.4 / nu;
 }
 
-/// The numbers of a study's tables: keys of summary.json.
-constexpr std::array<const char*, 28> quantities{"FFE",
-                                                 "FFW",
-                                                 "FFCR",
-                                                 "FFCE",
-                                                 "in_air",
-                                                 "RDF",
-                                                 "retained_fraction",
-                                                 "by_mechanism.wall",
-                                                 "by_mechanism.particle",
-                                                 "by_mechanism.drag",
-                                                 "first_motion",
-                                                 "first_emitted",
-                                                 "last_emitted",
-                                                 "collisions.wall",
-                                                 "collisions.particle",
-                                                 "median_per_carrier",
-                                                 "median_per_emitted_carrier",
-                                                 "mean_wall_energy",
-                                                 "mean_particle_energy",
-                                                 "static_drop",
-                                                 "total_to_static_drop",
-                                                 "ledger_error",
-                                                 "simulated_time",
-                                                 "cells_fluid",
-                                                 "steps",
-                                                 "mlups",
-                                                 "memory_peak",
-                                                 "wall_clock"};
-
 std::string text(const Json& json, const char* key) {
   return json.contains(key) && json[key].is_string() ? json[key].get<std::string>() : "";
 }
 
+/// Takes what a run says of its micro-models out, and puts in those that its contacts were replayed with: their label
+/// and source (which replays of earlier programs do not hold), and the file that the study keeps of them.
+void tell_replayed_laws(Summary& s, const fs::path& replay) {
+  const auto of_run = [](const std::string& text) {
+    return text.starts_with("micro-models: ") || text.starts_with("fines.micromodels: ");
+  };
+  std::erase_if(s.assumptions, of_run);
+  std::erase_if(s.warnings, of_run);  // impacts faster than the run's laws were made for
+  const Json json = read_json(replay);
+  const std::string label = text(json, "label"), source = text(json, "source");
+  s.assumptions.push_back("micro-models: " + (label.empty() ? "" : label + ": ") +
+                          (source.empty() ? "" : source + "; ") + "replayed from the contacts of another set's run (" +
+                          fs::path(replay).replace_extension(".toml").filename().string() + ")");
+}
+
 /// The summary as the case alone would have written it. `replay`: a file with its own fines, which displace those of
-/// the run. RDF is that of the run's first scalar: for another one, and for a replay, it changes by the mass of the
-/// fines.
+/// the run, as its laws do. RDF is that of the run's first scalar: for another one, and for a replay, it changes by the
+/// mass of the fines.
 std::optional<Summary> summary_of(const fs::path& run, const std::string& scalar, const std::string& replay,
                                   double fines_of_dose) {
   if (!fs::exists(run / "summary.json") || (!replay.empty() && !fs::exists(run / replay))) return {};
@@ -78,6 +61,7 @@ std::optional<Summary> summary_of(const fs::path& run, const std::string& scalar
   if (s.carriers && s.carriers->RDF && !s.fines.empty() && !fines.empty())
     *s.carriers->RDF += fines_of_dose * (left_inside(fines[0]) - left_inside(s.fines[0]));
   s.fines = fines;
+  tell_replayed_laws(s, run / replay);
   return s;
 }
 
@@ -117,7 +101,7 @@ StudyCaseResult case_of(const Json& described, const Json& jobs, const fs::path&
     if (std::isfinite(given.given)) c.reference.push_back(given);
   }
   for (const Json& run : part(described, "runs")) c.runs.push_back(run_of(run, jobs, study));
-  for (const std::string name : quantities) {
+  for (const std::string& name : study_quantities()) {
     std::vector<double> values;
     for (const StudyRun& run : c.runs)
       if (run.summary)
@@ -127,33 +111,39 @@ StudyCaseResult case_of(const Json& described, const Json& jobs, const fs::path&
   return c;
 }
 
-/// comparison.csv: what was measured beside every case of that device.
-void write_comparison(const StudyResults& results, const fs::path& study) {
-  const fs::path part = study / "comparison.csv.part";
-  const auto cell = [](const std::optional<double>& v, double factor) {
-    return v ? CsvCell(*v * factor) : CsvCell(std::string());
-  };
-  {
-    CsvFile table(part, {"device", "quantity", "case", "simulation", "ci_low", "ci_high", "replicates", "thesis",
-                         "experiment", "standard_deviation", "lowest", "highest", "tests"});
-    for (const std::string& quantity : names_of(results.experiments, &Measurement::quantity)) {
-      const auto [ours, factor] = counterpart_of(quantity);
-      for (const StudyCaseResult& c : results.cases) {
-        const Estimate* e = ours.empty() ? nullptr : c.find(ours);
-        const Spread s = spread_of(results.experiments, c.device, "", quantity);
-        if (!e || s.tests == 0) continue;
-        const ReferenceValue* thesis = c.given("thesis", ours);
-        table.append({c.device, quantity, c.name, e->mean * factor, cell(e->ci_low, factor), cell(e->ci_high, factor),
-                      double(e->n), cell(thesis ? std::optional(thesis->given) : std::nullopt, factor), s.mean,
-                      cell(s.deviation, 1.0), s.low, s.high, double(s.tests)});
-      }
-    }
-    table.flush();
-  }
-  finish_file(part, study / "comparison.csv");
-}
-
 }  // namespace
+
+const std::vector<std::string>& study_quantities() {
+  static const std::vector<std::string> names{"FFE",
+                                              "FFW",
+                                              "FFCR",
+                                              "FFCE",
+                                              "in_air",
+                                              "RDF",
+                                              "retained_fraction",
+                                              "by_mechanism.wall",
+                                              "by_mechanism.particle",
+                                              "by_mechanism.drag",
+                                              "first_motion",
+                                              "first_emitted",
+                                              "last_emitted",
+                                              "collisions.wall",
+                                              "collisions.particle",
+                                              "median_per_carrier",
+                                              "median_per_emitted_carrier",
+                                              "mean_wall_energy",
+                                              "mean_particle_energy",
+                                              "static_drop",
+                                              "total_to_static_drop",
+                                              "ledger_error",
+                                              "simulated_time",
+                                              "cells_fluid",
+                                              "steps",
+                                              "mlups",
+                                              "memory_peak",
+                                              "wall_clock"};
+  return names;
+}
 
 Estimate estimate(const std::vector<double>& values) {
   if (values.empty()) throw std::invalid_argument("no values to take the mean of");
@@ -191,78 +181,6 @@ StudyResults read_study_results(const fs::path& study) try {
   return results;
 } catch (const nlohmann::json::exception& e) {
   throw OutputError((study / "study.json").string() + " is damaged: " + e.what());
-}
-
-void write_study_tables(const StudyResults& results, const fs::path& study) {
-  const auto cell = [](const std::optional<double>& v) { return v ? CsvCell(*v) : CsvCell(std::string()); };
-  CsvFile table(study / "results.csv.part", {"case", "quantity", "mean", "ci_low", "ci_high", "replicates", "lowest",
-                                             "highest", "thesis", "experiment", "experiment_low", "experiment_high"});
-  CsvFile runs(study / "runs.csv.part", {"case", "run", "scalar", "state", "exit_code", "quantity", "value"});
-  for (const StudyCaseResult& c : results.cases) {
-    for (const auto& [name, e] : c.numbers) {
-      const ReferenceValue* thesis = c.given("thesis", name);
-      const ReferenceValue* experiment = c.given("experiment", name);
-      table.append({c.name, name, e.mean, cell(e.ci_low), cell(e.ci_high), double(e.n), e.low, e.high,
-                    cell(thesis ? std::optional(thesis->given) : std::nullopt),
-                    cell(experiment ? std::optional(experiment->given) : std::nullopt),
-                    cell(experiment ? experiment->low : std::nullopt),
-                    cell(experiment ? experiment->high : std::nullopt)});
-    }
-    for (const StudyRun& run : c.runs) {
-      if (!run.summary) runs.append({c.name, run.folder, run.scalar, run.state, double(run.exit_code), "", ""});
-      for (const std::string name : quantities)
-        if (const auto value = run.summary ? find_value(*run.summary, name) : std::nullopt)
-          runs.append({c.name, run.folder, run.scalar, run.state, double(run.exit_code), name, *value});
-    }
-  }
-  table.flush(), runs.flush();
-  finish_file(study / "results.csv.part", study / "results.csv");
-  finish_file(study / "runs.csv.part", study / "runs.csv");
-  write_whole(study / "results.json", study_results_json(results) + "\n");
-  if (results.experiments.empty()) return;
-  write_experiments_summary(results.experiments, study);
-  write_comparison(results, study);
-}
-
-std::pair<std::string, double> counterpart_of(const std::string& measured) {
-  if (measured == "FFE" || measured == "RDF") return {measured, 1.0};
-  if (measured == "pressure_drop_kPa") return {"total_to_static_drop", 1e-3};
-  if (measured == "pressure_drop_Pa") return {"total_to_static_drop", 1.0};
-  return {"", 0.0};
-}
-
-std::string study_results_json(const StudyResults& results, std::optional<int> exit_code) {
-  Json json{{"study", results.name}};
-  if (exit_code) json["exit_code"] = *exit_code, json["ok"] = *exit_code == 0;
-  Json list = Json::array();
-  for (const StudyCaseResult& c : results.cases) {
-    Json sets = Json::object(), runs = Json::array(), values = Json::object(), given = Json::object();
-    for (const auto& [key, value] : c.sets) sets[key] = value;
-    bool done = !c.runs.empty(), failed = false;
-    for (const StudyRun& run : c.runs) {
-      done = done && run.state == "done";
-      failed = failed || run.state == "failed";
-      runs.push_back({{"run", run.folder},
-                      {"scalar", run.scalar},
-                      {"state", run.state},
-                      {"exit_code", run.exit_code},
-                      {"message", run.message}});
-    }
-    for (const auto& [name, e] : c.numbers)
-      values[name] = {{"mean", number(e.mean)}, {"ci_low", number(e.ci_low)}, {"ci_high", number(e.ci_high)},
-                      {"replicates", e.n},      {"lowest", number(e.low)},    {"highest", number(e.high)}};
-    for (const ReferenceValue& r : c.reference) given[r.name] = number(r.given);
-    list.push_back({{"name", c.name},
-                    {"state", failed ? "failed"
-                              : done ? "finished"
-                                     : "unfinished"},
-                    {"set", sets},
-                    {"runs", runs},
-                    {"results", values},
-                    {"reference", given}});
-  }
-  json["cases"] = list;
-  return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace puffin::output

@@ -46,6 +46,9 @@ struct StudyResults {
   std::vector<StudyCaseResult> cases;
 };
 
+/// The numbers of a study's tables: keys of summary.json.
+const std::vector<std::string>& study_quantities();
+
 /// Mean and 95 % confidence interval of independent values. Throws std::invalid_argument without any.
 Estimate estimate(const std::vector<double>& values);
 

@@ -6,6 +6,7 @@
 
 #include "cases/micromodel_file.hpp"
 #include "cases/search_path.hpp"
+#include "cases/write_micromodels.hpp"
 #include "tools/puffin/commands.hpp"
 #include "tools/puffin/console.hpp"
 #include "tools/puffin/exit_codes.hpp"
@@ -35,6 +36,8 @@ int replay_run(const ReplayArguments& a) {
                        {"attached", replayed.to_wall}}},
                      {"contacts", run.record.contacts.size()},
                      {"micromodels", a.models.string()},
+                     {"label", cases::name(models.label)},
+                     {"source", models.source},
                      {"seconds", seconds}};
     print(j.dump(2));
     return ok;

@@ -134,6 +134,30 @@ TEST(StudyReport, HoldsExperimentsAssumptionsPhasesAndSkips) {
   EXPECT_EQ(page.find("http://"), std::string::npos);
 }
 
+// A case whose fines were replayed has the laws of the replay, not those of the run.
+TEST(StudyReport, AReplayedCaseHasItsOwnLawsAmongItsAssumptions) {
+  const Scratch folder;
+  Summary s;
+  s.state = "finished";
+  s.fines = {{"A", 0.5, 0.1, 0.1, 0.3, 0.0, 0.0, {}}};
+  s.assumptions = {"air.density: dry air", "fines.micromodels: a surrogate", "micro-models: laws of the run"};
+  s.warnings = {"micro-models: an impact on a wall, at 9 m/s, is faster than its law was made for"};
+  write_run(folder, "AB/seed-1", s);
+  const std::string head = R"({"fines": {"A": {"FFE": 0.6}}, )";
+  write_whole(folder / "AB/seed-1/replay-B.json", head + R"("label": "derived", "source": "laws of the replay"})");
+  write_plan(folder, R"({"name": "A", "runs": [{"job": "AB/seed-1"}]},
+                        {"name": "B", "runs": [{"job": "AB/seed-1", "replay": "replay-B.json"}]})",
+             {"AB/seed-1"});
+  const StudyResults results = read_study_results(folder.path());
+  EXPECT_EQ(results.cases[0].runs[0].summary->assumptions, s.assumptions);
+  EXPECT_EQ(results.cases[0].runs[0].summary->warnings, s.warnings);
+  const std::vector<std::string> own{"air.density: dry air",
+                                     "micro-models: derived: laws of the replay; replayed from the contacts of another "
+                                     "set's run (replay-B.toml)"};
+  EXPECT_EQ(results.cases[1].runs[0].summary->assumptions, own);
+  EXPECT_TRUE(results.cases[1].runs[0].summary->warnings.empty());
+}
+
 // What all replicates of a case say is of the case, what one says is of that one.
 TEST(StudyReport, TellsTheWarningsOfItsRuns) {
   const Scratch folder;

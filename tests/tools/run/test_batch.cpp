@@ -1,5 +1,6 @@
 // Studies as a user sees them: what fails fails alone, what is finished is never redone, shared runs give the same.
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <sstream>
@@ -171,8 +172,9 @@ TEST_F(BatchStudy, ASharedRunGivesWhatEachCaseGivesAlone) {
 
 /// A power law that detaches `limit` of the fines at any hard hit.
 std::string micromodel_set(double limit) {
-  return "label = \"given\"\nsource = \"test\"\nsurface_energy = 3.6e-3\n[wall_detach]\nlaw = \"power\"\nA = [" +
-         std::to_string(limit) + ", 1.0, 0.01, " + std::to_string(limit) + ", 0.0]\nvalid = [0.0, 100.0]\n";
+  return "label = \"given\"\nsource = \"the set of " + std::to_string(limit) +
+         "\"\nsurface_energy = 3.6e-3\n[wall_detach]\nlaw = \"power\"\nA = [" + std::to_string(limit) +
+         ", 1.0, 0.01, " + std::to_string(limit) + ", 0.0]\nvalid = [0.0, 100.0]\n";
 }
 
 // Fines do not act on air, carriers or contacts: what is left on the carriers is the same as in a run with those laws,
@@ -199,6 +201,16 @@ TEST_F(BatchStudy, ReplayedMicromodelsLeaveOnTheCarriersWhatARunOfTheirOwnLeaves
     ASSERT_TRUE(shared.cases[1].find(quantity) && alone.cases[0].find(quantity));
     EXPECT_NEAR(shared.cases[1].find(quantity)->mean, alone.cases[0].find(quantity)->mean, 1e-9);
   }
+  const auto said = [&](std::size_t n, const std::string& text) {  // among the assumptions of a case
+    const auto& list = shared.cases[n].runs[0].summary->assumptions;
+    return std::count_if(list.begin(), list.end(),
+                         [&](const std::string& one) { return one.find(text) != std::string::npos; });
+  };
+  EXPECT_EQ(said(0, "the set of 0.05"), 1);
+  EXPECT_EQ(said(1, "the set of 0.05"), 0) << "laws of the run that it does not have";
+  EXPECT_EQ(said(1, "micro-models: given: the set of 0.200000; replayed"), 1);
+  EXPECT_EQ(said(1, "replay-b.toml"), 1);
+  EXPECT_EQ(said(1, "fines.micromodels"), 0);
   EXPECT_GT(shared.cases[0].find("FFCR")->mean, shared.cases[1].find("FFCR")->mean + 1e-3);  // the laws do differ
 }
 
