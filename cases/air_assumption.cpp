@@ -19,7 +19,9 @@ std::string air_assumption(const Case& c) {
   else if (std::any_of(c.air.boundaries.begin(), c.air.boundaries.end(), inlet))
     text += ", no turbulence at the inlet";
   text += n.wall_model ? ", with a wall model" : ", no wall model";
-  if (n.les != Les::none) text += "; the founding study used a k-epsilon model";
+  const auto of_thesis = [](const auto& given) { return given.first.starts_with("thesis."); };
+  const bool beside_thesis = std::any_of(c.reference.begin(), c.reference.end(), of_thesis);
+  if (n.les != Les::none && beside_thesis) text += "; the founding study used a k-epsilon model";
   return text;
 }
 

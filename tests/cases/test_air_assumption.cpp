@@ -19,6 +19,10 @@ Case with_an_inlet() {
 
 TEST(AirAssumption, SaysWhatTheCaseAsksFor) {
   Case c = with_an_inlet();
+  EXPECT_EQ(air_assumption(c), "air: Smagorinsky large-eddy simulation, no turbulence at the inlet, no wall model");
+  c.reference["FFE"] = 0.5;  // of anybody's device
+  EXPECT_EQ(air_assumption(c), "air: Smagorinsky large-eddy simulation, no turbulence at the inlet, no wall model");
+  c.reference["thesis.FFE"] = 0.5;
   EXPECT_EQ(
       air_assumption(c),
       "air: Smagorinsky large-eddy simulation, no turbulence at the inlet, no wall model; the founding study used "

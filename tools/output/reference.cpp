@@ -41,10 +41,14 @@ std::optional<double> find_value(const Summary& summary, const std::string& name
   if (const auto found = find_path(json, name)) return found;
   if (!summary.fines.empty())  // the first scalar's: by_mechanism.wall
     if (const auto found = find_path(json["fines"][summary.fines[0].name], name)) return found;
-  const std::size_t dot = name.find('.');
-  const std::string head = name.substr(0, dot);
-  if (dot == std::string::npos || (head != "thesis" && head != "experiment" && head != "simulation")) return {};
-  return find_value(summary, name.substr(dot + 1));
+  const auto [source, quantity] = source_of(name);
+  return source == "reference" ? std::nullopt : find_value(summary, quantity);
+}
+
+std::pair<std::string, std::string> source_of(const std::string& name) {
+  for (const std::string source : {"experiment", "thesis", "simulation"})
+    if (name.starts_with(source + ".")) return {source, name.substr(source.size() + 1)};
+  return {"reference", name};
 }
 
 void compare_with_reference(Summary& summary, const std::vector<ReferenceValue>& given) {

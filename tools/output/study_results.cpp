@@ -168,8 +168,13 @@ const Estimate* StudyCaseResult::find(const std::string& quantity) const {
 
 const ReferenceValue* StudyCaseResult::given(const std::string& source, const std::string& quantity) const {
   for (const ReferenceValue& value : reference)
-    if (value.name == source + "." + quantity || (source == "thesis" && value.name == quantity)) return &value;
+    if (source_of(value.name) == std::pair(source, quantity)) return &value;
   return nullptr;
+}
+
+bool StudyCaseResult::gives(const std::string& source) const {
+  return std::any_of(reference.begin(), reference.end(),
+                     [&](const ReferenceValue& value) { return source_of(value.name).first == source; });
 }
 
 StudyResults read_study_results(const fs::path& study) try {

@@ -36,8 +36,10 @@ struct StudyCaseResult {
   std::vector<std::pair<std::string, Estimate>> numbers;  // by quantity
   std::vector<ReferenceValue> reference;
   const Estimate* find(const std::string& quantity) const;
-  /// "thesis", "FFE" -> the value of [reference.thesis] FFE.
+  /// "thesis", "FFE" -> the value of [reference.thesis] FFE; "reference", "FFE" -> that of [reference] FFE.
   const ReferenceValue* given(const std::string& source, const std::string& quantity) const;
+  /// Whether it gives any value of that source.
+  bool gives(const std::string& source) const;
 };
 
 struct StudyResults {

@@ -18,17 +18,18 @@ void write_comparison(const StudyResults& results, const fs::path& study) {
   };
   {
     CsvFile table(part, {"device", "quantity", "case", "simulation", "ci_low", "ci_high", "replicates", "thesis",
-                         "experiment", "standard_deviation", "lowest", "highest", "tests"});
+                         "experiment", "standard_deviation", "lowest", "highest", "tests", "reference"});
     for (const std::string& quantity : names_of(results.experiments, &Measurement::quantity)) {
       const auto [ours, factor] = counterpart_of(quantity);
       for (const StudyCaseResult& c : results.cases) {
         const Estimate* e = ours.empty() ? nullptr : c.find(ours);
         const Spread s = spread_of(results.experiments, c.device, "", quantity);
         if (!e || s.tests == 0) continue;
-        const ReferenceValue* thesis = c.given("thesis", ours);
+        const ReferenceValue *thesis = c.given("thesis", ours), *plain = c.given("reference", ours);
         table.append({c.device, quantity, c.name, e->mean * factor, cell(e->ci_low, factor), cell(e->ci_high, factor),
                       double(e->n), cell(thesis ? std::optional(thesis->given) : std::nullopt, factor), s.mean,
-                      cell(s.deviation, 1.0), s.low, s.high, double(s.tests)});
+                      cell(s.deviation, 1.0), s.low, s.high, double(s.tests),
+                      cell(plain ? std::optional(plain->given) : std::nullopt, factor)});
       }
     }
     table.flush();
@@ -40,18 +41,20 @@ void write_comparison(const StudyResults& results, const fs::path& study) {
 
 void write_study_tables(const StudyResults& results, const fs::path& study) {
   const auto cell = [](const std::optional<double>& v) { return v ? CsvCell(*v) : CsvCell(std::string()); };
-  CsvFile table(study / "results.csv.part", {"case", "quantity", "mean", "ci_low", "ci_high", "replicates", "lowest",
-                                             "highest", "thesis", "experiment", "experiment_low", "experiment_high"});
+  CsvFile table(study / "results.csv.part",
+                {"case", "quantity", "mean", "ci_low", "ci_high", "replicates", "lowest", "highest", "thesis",
+                 "experiment", "experiment_low", "experiment_high", "reference"});
   CsvFile runs(study / "runs.csv.part", {"case", "run", "scalar", "state", "exit_code", "quantity", "value"});
   for (const StudyCaseResult& c : results.cases) {
     for (const auto& [name, e] : c.numbers) {
       const ReferenceValue* thesis = c.given("thesis", name);
-      const ReferenceValue* experiment = c.given("experiment", name);
+      const ReferenceValue *experiment = c.given("experiment", name), *plain = c.given("reference", name);
       table.append({c.name, name, e.mean, cell(e.ci_low), cell(e.ci_high), double(e.n), e.low, e.high,
                     cell(thesis ? std::optional(thesis->given) : std::nullopt),
                     cell(experiment ? std::optional(experiment->given) : std::nullopt),
                     cell(experiment ? experiment->low : std::nullopt),
-                    cell(experiment ? experiment->high : std::nullopt)});
+                    cell(experiment ? experiment->high : std::nullopt),
+                    cell(plain ? std::optional(plain->given) : std::nullopt)});
     }
     for (const StudyRun& run : c.runs) {
       if (!run.summary) runs.append({c.name, run.folder, run.scalar, run.state, double(run.exit_code), "", ""});

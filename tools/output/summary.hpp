@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace puffin::output {
@@ -142,6 +143,9 @@ struct ReferenceValue {
   double given = 0.0;
   std::optional<double> low, high;
 };
+/// "experiment.FFE" -> {"experiment", "FFE"}, likewise "thesis" and "simulation"; what stands in [reference] itself is
+/// plainly given: "FFE" -> {"reference", "FFE"}.
+std::pair<std::string, std::string> source_of(const std::string& name);
 /// Fills summary.reference from the given values and the rest of the summary.
 void compare_with_reference(Summary& summary, const std::vector<ReferenceValue>& given);
 

@@ -134,6 +134,26 @@ TEST(StudyReport, HoldsExperimentsAssumptionsPhasesAndSkips) {
   EXPECT_EQ(page.find("http://"), std::string::npos);
 }
 
+// Somebody's own device: what its case gives in [reference] itself is of no thesis.
+TEST(StudyReport, PlainlyGivenValuesAreAReference) {
+  const Scratch folder;
+  write_study(folder);
+  std::string plan = read_whole(folder / "study.json");
+  plan.replace(plan.find("thesis.FFE"), 10, "FFE");
+  write_whole(folder / "study.json", plan);
+  const StudyResults results = read_study_results(folder.path());
+  write_study_tables(results, folder.path());
+  for (const char* name : {"comparison.csv", "results.csv"}) {
+    const CsvTable t = read_csv(folder / name);
+    EXPECT_TRUE(std::isnan(t.numbers("thesis")[0])) << name;
+    EXPECT_EQ(t.numbers("reference")[0], 0.67) << name;
+  }
+  const std::string page = make_study_report(folder.path());
+  EXPECT_EQ(page.find("thesis"), std::string::npos);
+  EXPECT_NE(page.find("L-bend: simulation, reference and experiment"), std::string::npos);
+  EXPECT_NE(page.find("in brackets: the reference."), std::string::npos);
+}
+
 // A case whose fines were replayed has the laws of the replay, not those of the run.
 TEST(StudyReport, AReplayedCaseHasItsOwnLawsAmongItsAssumptions) {
   const Scratch folder;

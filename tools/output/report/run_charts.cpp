@@ -8,18 +8,6 @@
 #include "tools/output/report/run_pictures.hpp"
 
 namespace puffin::output {
-namespace {
-
-/// "experiment.FFE" -> {"experiment", "FFE"}; names without such a word are plain references.
-std::pair<std::string, std::string> source_of(const std::string& name) {
-  for (const char* source : {"experiment", "thesis", "simulation"}) {
-    if (name.rfind(std::string(source) + ".", 0) == 0) return {source, name.substr(std::string(source).size() + 1)};
-  }
-  return {"reference", name};
-}
-
-}  // namespace
-
 std::string emission_section(const RunResults& run) {
   std::string out = heading("Emission over time");
   if (!run.summary.carriers) return out + left_out("this run has no carriers.");

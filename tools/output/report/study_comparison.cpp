@@ -28,12 +28,27 @@ std::string label_of(std::string quantity) {
   return quantity;
 }
 
-/// Table 4.10 of the thesis, with intervals: one row a source.
+/// What a case gives of the shown quantities; empty if nothing.
+std::vector<std::string> given_row(const StudyCaseResult& c, const std::string& source,
+                                   const std::vector<std::string>& shown) {
+  std::vector<std::string> row{escaped(c.name) + ", " + source};
+  bool any = false;
+  for (const std::string& quantity : shown) {
+    const auto [name, factor] = counterpart_of(quantity);
+    const ReferenceValue* given = c.given(source, name);
+    any = any || given;
+    row.push_back(given ? significant(given->given * factor) : "");
+  }
+  return any ? row : std::vector<std::string>{};
+}
+
+/// With intervals: one row a source.
 std::string beside(const StudyResults& results, const std::string& device) {
   std::vector<std::string> head{""}, shown;
   for (const std::string& quantity : names_of(results.experiments, &Measurement::quantity, device))
     if (!counterpart_of(quantity).first.empty()) shown.push_back(quantity), head.push_back(label_of(quantity));
   Rows rows;
+  std::string sources = "simulation";
   std::vector<std::string> measured{"experiment, mean &plusmn; standard deviation"}, range{"experiment, range"};
   for (const std::string& quantity : shown) {
     const Spread s = spread_of(results.experiments, device, "", quantity);
@@ -44,20 +59,24 @@ std::string beside(const StudyResults& results, const std::string& device) {
   rows.push_back(measured), rows.push_back(range);
   for (const StudyCaseResult& c : results.cases) {
     if (!same_device(c.device, device)) continue;
-    std::vector<std::string> ours{escaped(c.name) + ", simulation"}, theirs{escaped(c.name) + ", thesis"};
-    bool any = false, any_thesis = false;
+    std::vector<std::string> ours{escaped(c.name) + ", simulation"};
+    bool any = false;
     for (const std::string& quantity : shown) {
       const auto [name, factor] = counterpart_of(quantity);
       const Estimate* e = c.find(name);
-      const ReferenceValue* thesis = c.given("thesis", name);
-      any = any || e, any_thesis = any_thesis || thesis;
+      any = any || e;
       ours.push_back(e ? with_interval(e, factor) : "");
-      theirs.push_back(thesis ? significant(thesis->given * factor) : "");
     }
-    if (any) rows.push_back(ours);
-    if (any && any_thesis) rows.push_back(theirs);
+    if (!any) continue;
+    rows.push_back(ours);
+    for (const char* source : {"thesis", "reference"}) {
+      const std::vector<std::string> theirs = given_row(c, source, shown);
+      if (theirs.empty()) continue;
+      rows.push_back(theirs);
+      if (sources.find(source) == std::string::npos) sources += std::string(", ") + source;
+    }
   }
-  return "<h3>" + escaped(device) + ": simulation, thesis and experiment</h3>\n" + table(head, rows);
+  return "<h3>" + escaped(device) + ": " + sources + " and experiment</h3>\n" + table(head, rows);
 }
 
 std::string in_brackets(const std::optional<double>& value) {

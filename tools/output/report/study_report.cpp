@@ -19,9 +19,23 @@ namespace fs = std::filesystem;
 
 std::string with_given(const StudyCaseResult& c, const std::string& quantity, double factor = 1.0) {
   const Estimate* e = c.find(quantity);
-  const ReferenceValue* thesis = c.given("thesis", quantity);
+  const ReferenceValue* given = c.given("thesis", quantity);
+  if (!given) given = c.given("reference", quantity);
   return with_interval(e, factor) +
-         (thesis ? " <span class=soft>(" + significant(thesis->given * factor) + ")</span>" : "");
+         (given ? " <span class=soft>(" + significant(given->given * factor) + ")</span>" : "");
+}
+
+/// "; in brackets: the thesis" where a case gives values that with_given() puts there.
+std::string brackets(const StudyResults& results) {
+  const auto any = [&](const char* source) {
+    return std::any_of(results.cases.begin(), results.cases.end(),
+                       [&](const StudyCaseResult& c) { return c.gives(source); });
+  };
+  const bool thesis = any("thesis"), plain = any("reference");
+  if (!thesis && !plain) return "";
+  return std::string("; in brackets: the ") + (thesis && plain ? "thesis, or else the reference"
+                                               : thesis        ? "thesis"
+                                                               : "reference");
 }
 
 /// A name of usual length on one line: tables part it at its hyphens.
@@ -60,7 +74,7 @@ std::string outcome(const StudyResults& results, const std::string& quantity, co
       if (e->ci_low) bar.low = std::max(0.0, *e->ci_low), bar.high = e->ci_high;
       group.bars.push_back(bar);
     }
-    for (const char* source : {"thesis", "experiment"})
+    for (const char* source : {"thesis", "reference", "experiment"})
       if (const ReferenceValue* given = c.given(source, quantity))
         group.bars.push_back({source, given->given, given->low, given->high});
     if (any_run(c) && !group.bars.empty()) chart.groups.push_back(group);
@@ -89,8 +103,8 @@ std::string outcomes(const StudyResults& results) {
   return out + bars +
          table({"case", "FFE", "FFW", "FFCR", "FFCE", "in air", "RDF", "carriers retained", "by walls", "by carriers"},
                rows) +
-         paragraph(
-             "Mean with the half width of its 95 % interval where there are replicates; in brackets: the thesis.");
+         paragraph("Mean with the half width of its 95 % interval where there are replicates" + brackets(results) +
+                   ".");
 }
 
 /// A column over the run's history; of a run that cases share, the values of this case's own scalar. None where
@@ -173,7 +187,7 @@ std::string collisions(const StudyResults& results) {
          table({"case", "with walls", "with carriers", "median a carrier", "median an emitted carrier",
                 "mean wall energy [pJ]", "mean carrier energy [pJ]"},
                rows) +
-         paragraph("Counted per single carrier; in brackets: the thesis.");
+         paragraph("Counted per single carrier" + brackets(results) + ".");
 }
 
 std::string pressures(const StudyResults& results) {
@@ -184,7 +198,8 @@ std::string pressures(const StudyResults& results) {
   std::string out = heading("Pressure drops");
   if (rows.empty()) return out + paragraph("No run has measured one yet.");
   return out + table({"case", "static [Pa]", "total to static [Pa]"}, rows) +
-         paragraph("Means over the window of each run (its last tenth unless the case says otherwise).");
+         paragraph("Means over the window of each run (its last tenth unless the case says otherwise)" +
+                   brackets(results) + ".");
 }
 
 }  // namespace
