@@ -10,6 +10,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// As trial() of the first finished run.
+std::string trial_of(const StudyCaseResult& c) {
+  for (const StudyRun& run : c.runs)
+    if (run.summary) return trial(*run.summary);
+  return "";
+}
+
 /// comparison.csv: what was measured beside every case of that device.
 void write_comparison(const StudyResults& results, const fs::path& study) {
   const fs::path part = study / "comparison.csv.part";
@@ -18,7 +25,7 @@ void write_comparison(const StudyResults& results, const fs::path& study) {
   };
   {
     CsvFile table(part, {"device", "quantity", "case", "simulation", "ci_low", "ci_high", "replicates", "thesis",
-                         "experiment", "standard_deviation", "lowest", "highest", "tests", "reference"});
+                         "experiment", "standard_deviation", "lowest", "highest", "tests", "reference", "trial"});
     for (const std::string& quantity : names_of(results.experiments, &Measurement::quantity)) {
       const auto [ours, factor] = counterpart_of(quantity);
       for (const StudyCaseResult& c : results.cases) {
@@ -29,7 +36,7 @@ void write_comparison(const StudyResults& results, const fs::path& study) {
         table.append({c.device, quantity, c.name, e->mean * factor, cell(e->ci_low, factor), cell(e->ci_high, factor),
                       double(e->n), cell(thesis ? std::optional(thesis->given) : std::nullopt, factor), s.mean,
                       cell(s.deviation, 1.0), s.low, s.high, double(s.tests),
-                      cell(plain ? std::optional(plain->given) : std::nullopt, factor)});
+                      cell(plain ? std::optional(plain->given) : std::nullopt, factor), trial_of(c)});
       }
     }
     table.flush();

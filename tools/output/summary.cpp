@@ -64,6 +64,7 @@ void fields(Summary& s, const Field& field) {
   field("name", s.name), field("version", s.version), field("state", s.state), field("message", s.message);
   field("simulated_time", s.simulated_time), field("wall_clock", s.wall_clock);
   if (s.until || !field.writes) field("until", s.until);
+  field("preset", s.preset), field("stop_time", s.stop_time), field("case_stop_time", s.case_stop_time);
   field("threads", s.threads), field("host", s.host);
   field("cells_fluid", s.cells_fluid), field("cells_active", s.cells_active), field("steps", s.steps);
   field("mlups", s.mlups), field("mlups_active", s.mlups_active);

@@ -87,12 +87,14 @@ struct ReferenceRow {
 struct Summary {
   std::string name;
   std::string version;
-  std::string state;                  // finished | diverged | stopped
-  std::string message;                // why it stopped, or where it diverged: step, cell or carrier, value, limit
-  std::optional<double> until;        // finished because --until asked for no more [s]: --resume goes on
-  std::vector<std::string> warnings;  // retreats from failures with a smaller time step
-  double simulated_time = 0.0;        // [s]
-  double wall_clock = 0.0;            // [s]
+  std::string state;            // finished | diverged | stopped
+  std::string message;          // why it stopped, or where it diverged: step, cell or carrier, value, limit
+  std::optional<double> until;  // finished because --until asked for no more [s]: --resume goes on
+  std::string preset;           // of --preset; "" none
+  std::optional<double> stop_time, case_stop_time;  // where this run was to end, and without preset and --until [s]
+  std::vector<std::string> warnings;                // of the case, of impacts beyond its laws, of healed failures
+  double simulated_time = 0.0;                      // [s]
+  double wall_clock = 0.0;                          // [s]
   int threads = 0;
   std::string host;  // processor and instruction set
   std::int64_t cells_fluid = 0, cells_active = 0;
@@ -131,6 +133,11 @@ void write_summary_table(const std::filesystem::path& run);
 std::string summary_json(const Summary& summary);
 /// The text of the `fines` block alone; for `puffin replay --json`.
 std::string fines_json(const std::vector<FinesSummary>& fines);
+
+/// Whether a finished run ended before its case was meant to end, not because everything had left.
+bool cut_short(const Summary& summary);
+/// What makes a run a trial: "preset quick, ended at 121 ms of 211 ms". "" if it is the case as it stands.
+std::string trial(const Summary& summary);
 
 /// Our value for a name of [reference]: a key of the summary ("FFE", "retained_fraction"), a dotted path of it
 /// ("pressure.static_drop.mean", "fines.L-Base.FFE"), or a quantity that has a mean ("static_drop"). A first word

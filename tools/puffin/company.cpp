@@ -41,6 +41,7 @@ struct Population {
   std::unique_ptr<Recorder> recorder;
   std::unique_ptr<Progress> progress;
   std::unique_ptr<coupling::Health> health;
+  double case_stop_time = 0.0;        // without the preset [s]
   double set_up = 0.0, output = 0.0;  // [s]
   std::int64_t checked = 0;
   bool ended = false;
@@ -116,6 +117,7 @@ class Company {
     const Clock::time_point begin = Clock::now();
     Population p;
     p.out = given.out;
+    p.case_stop_time = stop_time_of(c, given.case_file, given.sets, options_.preset);
     p.simulation = built(c, given.case_file, options_.beds);
     p.simulation->models.carriers.asked_to_stop = [] { return Signals::received() != 0; };
     const std::vector<std::string> warnings = first_warnings(*p.simulation);
@@ -242,6 +244,8 @@ class Company {
     facts.set_up = p.set_up;
     facts.output = p.output;
     facts.threads = options_.threads;
+    facts.preset = options_.preset;
+    facts.case_stop_time = p.case_stop_time;
     facts.warnings = warnings;
     output::Summary summary = summarize(*p.simulation, *p.recorder, facts);
     summary.assumptions.push_back("carriers: they do not act on the air, whose flow this run shares with others");

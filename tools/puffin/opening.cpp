@@ -14,6 +14,13 @@
 
 namespace puffin::tools {
 
+double stop_time_of(const cases::Case& c, const std::filesystem::path& case_file,
+                    const std::vector<cases::Override>& sets, const std::string& preset) try {
+  return preset.empty() ? c.stop.time : cases::read_case(case_file, sets).stop.time;
+} catch (const cases::CaseError&) {  // what is set fits the preset alone
+  return c.stop.time;
+}
+
 std::unique_ptr<cases::Simulation> built(const cases::Case& c, const std::filesystem::path& case_file,
                                          const std::filesystem::path& beds) try {
   return cases::build(c, read_stored_field, available_memory(), beds);

@@ -7,9 +7,14 @@
 #include <vector>
 
 #include "cases/build.hpp"
+#include "cases/read_case.hpp"
 #include "tools/output/output_folder.hpp"
 
 namespace puffin::tools {
+
+/// [s] When the case would end without the preset that `c` was read with.
+double stop_time_of(const cases::Case& c, const std::filesystem::path& case_file,
+                    const std::vector<cases::Override>& sets, const std::string& preset);
 
 /// cases::build within the memory that there is; what the parts find wrong with their numbers is a mistake of the case.
 /// beds: as of RunOptions. Throws cases::CaseError, cases::TooLarge.

@@ -68,6 +68,7 @@ int run_here(const RunOptions& options, cases::Case c, int threads, Clock::time_
   const auto simulation = built(c, options.case_file, options.beds);
   cases::Simulation& s = *simulation;
   // Only now: the reference speed, and with it the time step, belong to the whole run that the case describes.
+  const double case_stop_time = stop_time_of(c, options.case_file, options.sets, options.preset);
   c.stop.time = std::min(c.stop.time, options.until);
   for (const std::string& text : first_warnings(s)) log_warning(text);
   const auto out = options.out.empty() ? std::nullopt : std::optional(options.out);
@@ -81,6 +82,8 @@ int run_here(const RunOptions& options, cases::Case c, int threads, Clock::time_
     log_beginning(s, threads, folder.path());
     RunFacts facts;
     facts.threads = threads;
+    facts.preset = options.preset;
+    facts.case_stop_time = case_stop_time;
     facts.set_up = std::chrono::duration<double>(Clock::now() - start).count();
     return run_in(folder, options, s, facts, start);
   } catch (const std::exception&) {

@@ -211,6 +211,9 @@ output::Summary summarize(const cases::Simulation& s, const Recorder& recorder, 
   r.state = facts.state;
   r.message = facts.message;
   r.until = facts.until;
+  r.preset = facts.preset;
+  r.stop_time = s.description.stop.time;
+  r.case_stop_time = facts.case_stop_time;
   r.warnings = facts.warnings;
   r.simulated_time = s.state.time;
   r.wall_clock = facts.wall_clock;

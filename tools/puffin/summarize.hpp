@@ -15,6 +15,8 @@ struct RunFacts {
   std::string state;  // finished | diverged | stopped
   std::string message;
   std::optional<double> until;  // the run ended there [s] though its case goes on
+  std::string preset;
+  double case_stop_time = 0.0;  // without preset and --until [s]
   std::vector<std::string> warnings;
   double wall_clock = 0.0;            // [s]
   double set_up = 0.0, output = 0.0;  // [s]

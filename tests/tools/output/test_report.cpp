@@ -96,6 +96,25 @@ TEST(Report, WarningsStandBeforeTheResults) {
   EXPECT_FALSE(has(whole_report(), "This run warns"));
 }
 
+// 121 of 211 ms; a run that ends sooner since everything has left is whole.
+TEST(Report, ATrialIsCalledOne) {
+  const Scratch folder;
+  Summary summary = synthetic_summary();
+  summary.preset = "quick", summary.stop_time = summary.simulated_time = 0.121, summary.case_stop_time = 0.211;
+  compare_with_reference(summary, {{"thesis.last_emitted", 0.21, {}, {}}});
+  EXPECT_EQ(trial(summary), "preset quick, ended at 121 ms of 211 ms");
+  write_summary(folder / "summary.json", summary);
+  const std::string text = make_report(folder.path());
+  EXPECT_TRUE(has(text, "<b>A trial:</b> preset quick, ended at 121 ms of 211 ms."));
+  EXPECT_EQ(count(text, "(until the end of this run)"), 1);  // in the reference; no moments of carriers are stored
+  summary.preset = "default", summary.simulated_time = 0.1;
+  EXPECT_EQ(trial(summary), "");
+  summary.preset = "";
+  summary.simulated_time = summary.stop_time.emplace(0.211);
+  EXPECT_EQ(trial(summary), "");
+  EXPECT_FALSE(has(whole_report(), "A trial"));
+}
+
 TEST(Report, ABareSummaryIsEnough) {
   const Scratch folder;
   Summary summary;

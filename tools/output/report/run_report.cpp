@@ -32,7 +32,9 @@ std::string head(const RunResults& run) {
   const bool known = s.state == "finished" || s.state == "stopped" || s.state == "diverged";
   std::string out = "<h1>" + escaped(s.name) + "<span class=\"state " + (known ? s.state : "stopped") + "\">" +
                     escaped(s.state) + "</span></h1>\n<p class=soft>Puffin " + escaped(s.version) + ", " +
-                    std::to_string(s.threads) + " threads" + (s.host.empty() ? "" : ", " + escaped(s.host)) + "</p>\n";
+                    std::to_string(s.threads) + " threads" + (s.host.empty() ? "" : ", " + escaped(s.host)) +
+                    (s.preset.empty() ? "" : ", preset " + escaped(s.preset)) +
+                    (s.stop_time ? ", until " + milliseconds(*s.stop_time) : "") + "</p>\n";
   if (s.state == "diverged") {
     out += "<div class=alarm><b>This run diverged</b> after " + milliseconds(s.simulated_time) +
            " of simulated time. " + escaped(s.message) +
@@ -59,12 +61,29 @@ std::string head(const RunResults& run) {
   return out + "</div>\n";
 }
 
+/// What a trial cannot be compared in.
+std::string trial_note(const RunResults& run) {
+  const std::string what = trial(run.summary);
+  if (what.empty()) return "";
+  std::string out = "<div class=alarm><b>A trial:</b> " + escaped(what) + ".";
+  if (cut_short(run.summary))
+    out +=
+        " What would come later is not in it: what leaves the device, what it retains and the last emission are "
+        "those until then.";
+  return out + "</div>\n";
+}
+
 /// What the run warned of, before anything that it came to.
 std::string warnings(const RunResults& run) {
   if (run.summary.warnings.empty()) return "";
   std::string out = "<div class=alarm><b>This run warns:</b>\n<ul>\n";
   for (const std::string& text : run.summary.warnings) out += "<li>" + escaped(text) + "</li>\n";
   return out + "</ul></div>\n";
+}
+
+/// Beside a time that the end of the run may have cut.
+std::string until_the_end(const Summary& s) {
+  return cut_short(s) ? " <span class=soft>(until the end of this run)</span>" : "";
 }
 
 std::string geometry(const RunResults& run) {
@@ -86,7 +105,7 @@ std::string carriers(const RunResults& run) {
                           {"retained", grouped(c.retained) + " (" + percent(c.retained_fraction) + ")"},
                           {"first motion", milliseconds(c.first_motion)},
                           {"first emitted", milliseconds(c.first_emitted)},
-                          {"last emitted", milliseconds(c.last_emitted)},
+                          {"last emitted", milliseconds(c.last_emitted) + until_the_end(run.summary)},
                           {"retained dose fraction (RDF)", significant(c.RDF, 3)}});
   if (c.retained == 0) return out + paragraph("No carrier is left in the device at the end.");
   return out + embedded(run.folder, retained_picture(run.summary));
@@ -95,11 +114,13 @@ std::string carriers(const RunResults& run) {
 std::string reference(const RunResults& run) {
   std::string out = heading("Beside the given values");
   if (run.summary.reference.empty()) return out + left_out("the case has no [reference] table.");
+  const auto late = [](const ReferenceRow& row) { return source_of(row.name).second == "last_emitted"; };
   Rows rows;
   for (const auto& row : run.summary.reference) {
     rows.push_back({"<code>" + escaped(row.name) + "</code>", short_number(row.given),
                     row.low && row.high ? short_number(*row.low) + " to " + short_number(*row.high) : "",
-                    significant(row.ours, 4), significant(row.difference, 3),
+                    significant(row.ours, 4) + (late(row) ? until_the_end(run.summary) : ""),
+                    significant(row.difference, 3),
                     row.difference && row.given != 0 ? percent(*row.difference / std::abs(row.given)) : ""});
   }
   return out + table({"quantity", "given", "spread", "this run", "difference", "relative"}, rows) +
@@ -212,8 +233,8 @@ std::string make_report(const fs::path& folder) {
   if (fs::exists(run.folder / "history.csv")) run.history = read_csv(run.folder / "history.csv");
   write_summary_table(run.folder);
   std::string body = head(run);
-  for (const auto section : {warnings, geometry, carriers, emission_section, outcome_section, reference, flow_section,
-                             slice, collisions, wall_map, work, numerics, assumptions, reproduce}) {
+  for (const auto section : {trial_note, warnings, geometry, carriers, emission_section, outcome_section, reference,
+                             flow_section, slice, collisions, wall_map, work, numerics, assumptions, reproduce}) {
     body += section(run);
   }
   return page(run.summary.name, body);

@@ -130,7 +130,7 @@ std::string tests(const Measurements& all, const std::string& device) {
 
 std::string experiment_section(const StudyResults& results) {
   if (results.experiments.empty()) return "";
-  std::string out = "<h2>Beside the experiments</h2>\n";
+  std::string out = "<h2>Beside the experiments</h2>\n" + trial_section(results);
   for (const std::string& device : names_of(results.experiments, &Measurement::device)) out += beside(results, device);
   out +=
       "<p>Simulation: mean with the half width of its 95 % interval where there are replicates. The pressure drop of "

@@ -1,12 +1,15 @@
 // What the runs of a study say of themselves: warnings and assumptions, each text once, with the cases it is of.
 
 #include <algorithm>
+#include <limits>
 
 #include "tools/output/report/html.hpp"
 #include "tools/output/report/study_sections.hpp"
 
 namespace puffin::output {
 namespace {
+
+constexpr std::ptrdiff_t most_names = std::numeric_limits<std::ptrdiff_t>::max();  // every case is named
 
 struct Remark {
   std::string text;
@@ -50,12 +53,26 @@ void add_warnings(const StudyCaseResult& c, std::vector<Remark>& all) {
 
 }  // namespace
 
+std::string trial_section(const StudyResults& results) {
+  std::vector<Remark> all;
+  bool cut = false;
+  for (const StudyCaseResult& c : results.cases)
+    if (const StudyRun* run = first_done(c)) {
+      if (const std::string what = trial(*run->summary); !what.empty()) remark(all, what, c.name);
+      cut = cut || cut_short(*run->summary);
+    }
+  if (all.empty()) return "";
+  return "<div class=alarm><b>Trials:</b> these are not the cases as they stand." + list_of(all, most_names) +
+         (cut ? "What leaves the device, what it retains and the last emission are those until the end of the run."
+              : "") +
+         "</div>\n";
+}
+
 std::string warning_section(const StudyResults& results) {
   std::vector<Remark> all;
   for (const StudyCaseResult& c : results.cases) add_warnings(c, all);
   if (all.empty()) return "";
-  return "<h2>Warnings</h2>\n<div class=alarm>" + list_of(all, static_cast<std::ptrdiff_t>(results.cases.size()) + 1) +
-         "</div>\n";
+  return "<h2>Warnings</h2>\n<div class=alarm>" + list_of(all, most_names) + "</div>\n";
 }
 
 std::string assumption_section(const StudyResults& results) {

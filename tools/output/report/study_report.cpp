@@ -214,10 +214,11 @@ std::string with_interval(const Estimate* e, double factor) {
 std::string make_study_report(const fs::path& study) {
   const StudyResults results = read_study_results(study);
   return page(results.name,
-              "<h1>" + escaped(results.name) + "</h1>\n" + overview(results) + warning_section(results) +
-                  device_section(results, study) + outcomes(results) + experiment_section(results) +
-                  emission(results, study) + times(results) + carrier_section(results, study) + collisions(results) +
-                  pressures(results) + effort_section(results) + assumption_section(results) +
+              "<h1>" + escaped(results.name) + "</h1>\n" + overview(results) + trial_section(results) +
+                  warning_section(results) + device_section(results, study) + outcomes(results) +
+                  experiment_section(results) + emission(results, study) + times(results) +
+                  carrier_section(results, study) + collisions(results) + pressures(results) + effort_section(results) +
+                  assumption_section(results) +
                   "<p class=soft>The numbers of this page are in results.csv, results.json and (run by run) runs.csv; "
                   "the curves in the history.csv of each run.</p>\n");
 }

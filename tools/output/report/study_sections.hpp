@@ -20,6 +20,8 @@ std::string device_section(const StudyResults& results, const std::filesystem::p
 std::string carrier_section(const StudyResults& results, const std::filesystem::path& study);
 /// By device: every case beside the experiments; then the experiments themselves, by copy and test by test. "" without.
 std::string experiment_section(const StudyResults& results);
+/// Which cases were run with a preset or not to their end. "" if all are as they stand.
+std::string trial_section(const StudyResults& results);
 /// What runs warned of, each warning once: of a whole case or of some of its replicates. "" without.
 std::string warning_section(const StudyResults& results);
 /// What every case assumes, each assumption once.
