@@ -135,6 +135,7 @@ const std::vector<std::string>& study_quantities() {
                                               "mean_particle_energy",
                                               "static_drop",
                                               "total_to_static_drop",
+                                              "flow_rate",
                                               "ledger_error",
                                               "simulated_time",
                                               "cells_fluid",

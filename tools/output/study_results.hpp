@@ -62,6 +62,8 @@ void write_study_tables(const StudyResults& results, const std::filesystem::path
 /// Which number of a run a measured quantity is compared with, and the factor from SI to the unit in its name:
 /// "pressure_drop_kPa" -> {"total_to_static_drop", 1e-3}. {"", 0} if runs have no such number.
 std::pair<std::string, double> counterpart_of(const std::string& measured);
+/// Whether a number of a run is a pressure drop, which is of its flow rate.
+bool is_pressure(const std::string& quantity);
 std::string study_results_json(const StudyResults& results, std::optional<int> exit_code = {});
 
 }  // namespace puffin::output

@@ -24,8 +24,9 @@ void write_comparison(const StudyResults& results, const fs::path& study) {
     return v ? CsvCell(*v * factor) : CsvCell(std::string());
   };
   {
-    CsvFile table(part, {"device", "quantity", "case", "simulation", "ci_low", "ci_high", "replicates", "thesis",
-                         "experiment", "standard_deviation", "lowest", "highest", "tests", "reference", "trial"});
+    CsvFile table(
+        part, {"device", "quantity", "case", "simulation", "ci_low", "ci_high", "replicates", "thesis", "experiment",
+               "standard_deviation", "lowest", "highest", "tests", "reference", "trial", "flow_rate"});
     for (const std::string& quantity : names_of(results.experiments, &Measurement::quantity)) {
       const auto [ours, factor] = counterpart_of(quantity);
       for (const StudyCaseResult& c : results.cases) {
@@ -33,10 +34,12 @@ void write_comparison(const StudyResults& results, const fs::path& study) {
         const Spread s = spread_of(results.experiments, c.device, "", quantity);
         if (!e || s.tests == 0) continue;
         const ReferenceValue *thesis = c.given("thesis", ours), *plain = c.given("reference", ours);
+        const Estimate* flow = is_pressure(ours) ? c.find("flow_rate") : nullptr;
         table.append({c.device, quantity, c.name, e->mean * factor, cell(e->ci_low, factor), cell(e->ci_high, factor),
                       double(e->n), cell(thesis ? std::optional(thesis->given) : std::nullopt, factor), s.mean,
                       cell(s.deviation, 1.0), s.low, s.high, double(s.tests),
-                      cell(plain ? std::optional(plain->given) : std::nullopt, factor), trial_of(c)});
+                      cell(plain ? std::optional(plain->given) : std::nullopt, factor), trial_of(c),
+                      cell(flow ? std::optional(flow->mean) : std::nullopt, 1.0)});
       }
     }
     table.flush();
@@ -85,6 +88,8 @@ std::pair<std::string, double> counterpart_of(const std::string& measured) {
   if (measured == "pressure_drop_Pa") return {"total_to_static_drop", 1.0};
   return {"", 0.0};
 }
+
+bool is_pressure(const std::string& quantity) { return quantity.ends_with("_drop"); }
 
 std::string study_results_json(const StudyResults& results, std::optional<int> exit_code) {
   Json json{{"study", results.name}};

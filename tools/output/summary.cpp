@@ -118,6 +118,7 @@ Summary summary_of(const Json& json) {
     s.pressure.emplace();
     s.pressure->static_drop = read<TimeMean>(part(p, "static_drop"));
     s.pressure->total_to_static_drop = read<TimeMean>(part(p, "total_to_static_drop"));
+    s.pressure->flow_rate = read<TimeMean>(part(p, "flow_rate"));
     s.pressure->window_begin = window[0], s.pressure->window_end = window[1];
   }
   for (const auto& [patch, item] : part(json, "forces").items()) {
@@ -148,6 +149,7 @@ Json to_json(const Summary& s) {
   json["pressure"] = {
       {"static_drop", written(pressure.static_drop)},
       {"total_to_static_drop", written(pressure.total_to_static_drop)},
+      {"flow_rate", written(pressure.flow_rate)},
       {"window", s.pressure ? Json{number(pressure.window_begin), number(pressure.window_end)} : Json(nullptr)}};
   json["forces"] = Json::object();
   for (const auto& f : s.forces) json["forces"][f.patch] = {number(f.fx), number(f.fy), number(f.fz)};

@@ -21,6 +21,7 @@ struct PressureSummary {
   TimeMean static_drop;                         // [Pa]
   TimeMean total_to_static_drop;                // [Pa]
   double window_begin = 0.0, window_end = 0.0;  // [s]
+  TimeMean flow_rate;                           // that the drops were measured at [m^3/s]
 };
 
 struct CarrierSummary {

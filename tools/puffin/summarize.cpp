@@ -57,6 +57,7 @@ output::PressureSummary pressures(const cases::Simulation& s, const std::vector<
   p.window_begin = window[0];
   p.window_end = window[1];
   p.static_drop = mean_of(history, window[0], window[1], &output::HistoryRow::static_drop);
+  p.flow_rate = mean_of(history, window[0], window[1], &output::HistoryRow::flow_rate);
   p.total_to_static_drop = mean_of(history, window[0], window[1], &output::HistoryRow::total_to_static_drop);
   return p;
 }

@@ -88,6 +88,7 @@ void write_study(const Scratch& folder) {
   s.fines = {{"A", 0.5, 0.1, 0.1, 0.3, 0.0, 0.0, {}}};
   s.pressure.emplace();
   s.pressure->total_to_static_drop.mean = 3000.0;
+  s.pressure->flow_rate.mean = 6e-4;
   s.assumptions = {"the air is dry"};
   s.phases = {{"air", 7.0}};
   s.skipped = {{"exchanges", 3, 1.5}};
@@ -112,6 +113,11 @@ TEST(Comparison, StandsBesideTheExperimentsInTheirUnits) {
   EXPECT_NEAR(t.numbers("experiment")[0], 0.5, 1e-15);
   EXPECT_NEAR(t.numbers("standard_deviation")[0], 0.1, 1e-15);
   EXPECT_EQ(t.numbers("tests"), (std::vector<double>{3.0, 2.0}));
+  EXPECT_TRUE(std::isnan(t.numbers("flow_rate")[0])) << "FFE is of no flow rate";
+  EXPECT_EQ(t.numbers("flow_rate")[1], 6e-4);
+  const std::string page = make_study_report(folder.path());
+  EXPECT_NE(page.find("<th>at a flow rate of [L/min]</th>"), std::string::npos);
+  EXPECT_NE(page.find("<td>36.0</td>"), std::string::npos);
 }
 
 TEST(Experiments, OneTestHasNoDeviation) {

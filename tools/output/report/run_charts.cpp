@@ -55,6 +55,9 @@ std::string flow_section(const RunResults& run) {
   };
   add("static drop [Pa]", p.static_drop);
   add("total-to-static drop [Pa]", p.total_to_static_drop);
+  if (p.flow_rate.mean)
+    rows.push_back({"at a flow rate of [L/min]", significant(*p.flow_rate.mean * 6e4, 4), "",
+                    std::to_string(p.flow_rate.batches)});
   out += table({"mean from " + milliseconds(p.window_begin) + " to " + milliseconds(p.window_end), "mean",
                 "95 % interval of the mean", "batches"},
                rows);

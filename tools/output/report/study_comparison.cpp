@@ -47,6 +47,10 @@ std::string beside(const StudyResults& results, const std::string& device) {
   std::vector<std::string> head{""}, shown;
   for (const std::string& quantity : names_of(results.experiments, &Measurement::quantity, device))
     if (!counterpart_of(quantity).first.empty()) shown.push_back(quantity), head.push_back(label_of(quantity));
+  const bool flows = std::any_of(shown.begin(), shown.end(), [](const std::string& quantity) {
+    return is_pressure(counterpart_of(quantity).first);
+  });
+  if (flows) head.emplace_back("at a flow rate of [L/min]");
   Rows rows;
   std::string sources = "simulation";
   std::vector<std::string> measured{"experiment, mean &plusmn; standard deviation"}, range{"experiment, range"};
@@ -68,6 +72,7 @@ std::string beside(const StudyResults& results, const std::string& device) {
       ours.push_back(e ? with_interval(e, factor) : "");
     }
     if (!any) continue;
+    if (flows) ours.push_back(with_interval(c.find("flow_rate"), 6e4));
     rows.push_back(ours);
     for (const char* source : {"thesis", "reference"}) {
       const std::vector<std::string> theirs = given_row(c, source, shown);
@@ -134,7 +139,9 @@ std::string experiment_section(const StudyResults& results) {
   for (const std::string& device : names_of(results.experiments, &Measurement::device)) out += beside(results, device);
   out +=
       "<p>Simulation: mean with the half width of its 95 % interval where there are replicates. The pressure drop of "
-      "a simulation is total to static, over the window of its run. These numbers: comparison.csv.</p>\n";
+      "a simulation is total to static, over the window of its run; drops go with the "
+      "square of the flow rate, so only those of like flow rates can be set beside each other. These numbers: "
+      "comparison.csv.</p>\n";
   for (const std::string& device : names_of(results.experiments, &Measurement::device))
     out += "<h3>" + escaped(device) + ": the experiments</h3>\n" + copies(results.experiments, device) +
            tests(results.experiments, device);

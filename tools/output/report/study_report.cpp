@@ -194,12 +194,14 @@ std::string pressures(const StudyResults& results) {
   Rows rows;
   for (const StudyCaseResult& c : results.cases)
     if (c.find("static_drop") || c.find("total_to_static_drop"))
-      rows.push_back({escaped(c.name), with_given(c, "static_drop"), with_given(c, "total_to_static_drop")});
+      rows.push_back({escaped(c.name), with_given(c, "static_drop"), with_given(c, "total_to_static_drop"),
+                      with_given(c, "flow_rate", 6e4)});
   std::string out = heading("Pressure drops");
   if (rows.empty()) return out + paragraph("No run has measured one yet.");
-  return out + table({"case", "static [Pa]", "total to static [Pa]"}, rows) +
+  return out + table({"case", "static [Pa]", "total to static [Pa]", "at a flow rate of [L/min]"}, rows) +
          paragraph("Means over the window of each run (its last tenth unless the case says otherwise)" +
-                   brackets(results) + ".");
+                   brackets(results) +
+                   ". Drops go with the square of the flow rate: only those of like flow rates can be compared.");
 }
 
 }  // namespace
