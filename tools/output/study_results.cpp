@@ -90,6 +90,19 @@ ReferenceValue reference_of(const std::string& name, const Json& value) {
   return {name, list[0], list[1], list[2]};
 }
 
+/// Where replicates give none: a mean over time has the interval of its run, from batch means.
+void take_interval_of_run(const StudyCaseResult& c, const std::string& quantity, Estimate& e) {
+  const auto run = std::find_if(c.runs.begin(), c.runs.end(), [](const StudyRun& r) { return r.summary.has_value(); });
+  if (run == c.runs.end() || !run->summary->pressure) return;
+  const PressureSummary& p = *run->summary->pressure;
+  const TimeMean* mean = quantity == "static_drop"            ? &p.static_drop
+                         : quantity == "total_to_static_drop" ? &p.total_to_static_drop
+                         : quantity == "flow_rate"            ? &p.flow_rate
+                                                              : nullptr;
+  if (!mean || !mean->ci_low || !mean->ci_high) return;
+  e.ci_low = mean->ci_low, e.ci_high = mean->ci_high, e.interval = "batches";
+}
+
 StudyCaseResult case_of(const Json& described, const Json& jobs, const fs::path& study) {
   StudyCaseResult c;
   c.name = text(described, "name");
@@ -106,7 +119,9 @@ StudyCaseResult case_of(const Json& described, const Json& jobs, const fs::path&
     for (const StudyRun& run : c.runs)
       if (run.summary)
         if (const auto value = find_value(*run.summary, name); value && std::isfinite(*value)) values.push_back(*value);
-    if (!values.empty()) c.numbers.emplace_back(name, estimate(values));
+    if (values.empty()) continue;
+    c.numbers.emplace_back(name, estimate(values));
+    if (c.numbers.back().second.interval.empty()) take_interval_of_run(c, name, c.numbers.back().second);
   }
   return c;
 }
@@ -153,11 +168,11 @@ Estimate estimate(const std::vector<double>& values) {
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   e.low = *low, e.high = *high;
   for (const double v : values) e.mean += v / e.n;
-  if (e.n < 2) return e;
+  if (e.n < 2 || e.low == e.high) return e;
   double squares = 0.0;
   for (const double v : values) squares += (v - e.mean) * (v - e.mean);
   const double half = student(e.n - 1) * std::sqrt(squares / (e.n - 1.0) / e.n);
-  e.ci_low = e.mean - half, e.ci_high = e.mean + half;
+  e.ci_low = e.mean - half, e.ci_high = e.mean + half, e.interval = "replicates";
   return e;
 }
 

@@ -24,7 +24,8 @@ struct StudyRun {
 
 struct Estimate {
   double mean = 0.0, low = 0.0, high = 0.0;  // of the values
-  std::optional<double> ci_low, ci_high;     // 95 %, Student's t over the replicates; absent for one
+  std::optional<double> ci_low, ci_high;     // 95 %
+  std::string interval;                      // what of: "replicates" (Student's t), "batches" of one run's time, or ""
   int n = 0;                                 // replicates that have the number
 };
 
@@ -51,7 +52,8 @@ struct StudyResults {
 /// The numbers of a study's tables: keys of summary.json.
 const std::vector<std::string>& study_quantities();
 
-/// Mean and 95 % confidence interval of independent values. Throws std::invalid_argument without any.
+/// Mean and 95 % confidence interval of independent values. One value has no interval, nor have values that are all
+/// equal: their seeds have changed nothing. Throws std::invalid_argument without any.
 Estimate estimate(const std::vector<double>& values);
 
 /// Reads study.json and the summaries of its finished runs. Throws OutputError if study.json is missing or damaged.

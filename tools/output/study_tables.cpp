@@ -26,7 +26,7 @@ void write_comparison(const StudyResults& results, const fs::path& study) {
   {
     CsvFile table(
         part, {"device", "quantity", "case", "simulation", "ci_low", "ci_high", "replicates", "thesis", "experiment",
-               "standard_deviation", "lowest", "highest", "tests", "reference", "trial", "flow_rate"});
+               "standard_deviation", "lowest", "highest", "tests", "reference", "trial", "flow_rate", "interval"});
     for (const std::string& quantity : names_of(results.experiments, &Measurement::quantity)) {
       const auto [ours, factor] = counterpart_of(quantity);
       for (const StudyCaseResult& c : results.cases) {
@@ -39,7 +39,7 @@ void write_comparison(const StudyResults& results, const fs::path& study) {
                       double(e->n), cell(thesis ? std::optional(thesis->given) : std::nullopt, factor), s.mean,
                       cell(s.deviation, 1.0), s.low, s.high, double(s.tests),
                       cell(plain ? std::optional(plain->given) : std::nullopt, factor), trial_of(c),
-                      cell(flow ? std::optional(flow->mean) : std::nullopt, 1.0)});
+                      cell(flow ? std::optional(flow->mean) : std::nullopt, 1.0), e->interval});
       }
     }
     table.flush();
@@ -53,7 +53,7 @@ void write_study_tables(const StudyResults& results, const fs::path& study) {
   const auto cell = [](const std::optional<double>& v) { return v ? CsvCell(*v) : CsvCell(std::string()); };
   CsvFile table(study / "results.csv.part",
                 {"case", "quantity", "mean", "ci_low", "ci_high", "replicates", "lowest", "highest", "thesis",
-                 "experiment", "experiment_low", "experiment_high", "reference"});
+                 "experiment", "experiment_low", "experiment_high", "reference", "interval"});
   CsvFile runs(study / "runs.csv.part", {"case", "run", "scalar", "state", "exit_code", "quantity", "value"});
   for (const StudyCaseResult& c : results.cases) {
     for (const auto& [name, e] : c.numbers) {
@@ -64,7 +64,7 @@ void write_study_tables(const StudyResults& results, const fs::path& study) {
                     cell(experiment ? std::optional(experiment->given) : std::nullopt),
                     cell(experiment ? experiment->low : std::nullopt),
                     cell(experiment ? experiment->high : std::nullopt),
-                    cell(plain ? std::optional(plain->given) : std::nullopt)});
+                    cell(plain ? std::optional(plain->given) : std::nullopt), e.interval});
     }
     for (const StudyRun& run : c.runs) {
       if (!run.summary) runs.append({c.name, run.folder, run.scalar, run.state, double(run.exit_code), "", ""});
@@ -110,7 +110,8 @@ std::string study_results_json(const StudyResults& results, std::optional<int> e
     }
     for (const auto& [name, e] : c.numbers)
       values[name] = {{"mean", number(e.mean)}, {"ci_low", number(e.ci_low)}, {"ci_high", number(e.ci_high)},
-                      {"replicates", e.n},      {"lowest", number(e.low)},    {"highest", number(e.high)}};
+                      {"replicates", e.n},      {"lowest", number(e.low)},    {"highest", number(e.high)},
+                      {"interval", e.interval}};
     for (const ReferenceValue& r : c.reference) given[r.name] = number(r.given);
     list.push_back({{"name", c.name},
                     {"state", failed ? "failed"

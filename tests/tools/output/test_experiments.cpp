@@ -140,6 +140,35 @@ TEST(StudyReport, HoldsExperimentsAssumptionsPhasesAndSkips) {
   EXPECT_EQ(page.find("http://"), std::string::npos);
 }
 
+// Flow alone, three times: the seed acts on nothing, and +-0 would be a lie.
+TEST(StudyReport, EqualReplicatesHaveTheIntervalOfTheRun) {
+  const Scratch folder;
+  Summary s;
+  s.state = "finished", s.steps = 7;
+  s.pressure.emplace();
+  s.pressure->static_drop = {100.0, 90.0, 110.0, 20};
+  const std::vector<std::string> names{"A/seed-1", "A/seed-2", "A/seed-3"};
+  for (const std::string& name : names) write_run(folder, name, s);
+  write_plan(folder, R"({"name": "A", "runs": [{"job": "A/seed-1"}, {"job": "A/seed-2"}, {"job": "A/seed-3"}]})",
+             names);
+  const StudyResults results = read_study_results(folder.path());
+  const Estimate& drop = *results.cases[0].find("static_drop");
+  EXPECT_EQ(drop.ci_low, 90.0);
+  EXPECT_EQ(drop.ci_high, 110.0);
+  EXPECT_EQ(drop.interval, "batches");
+  EXPECT_EQ(results.cases[0].find("steps")->interval, "");
+  write_study_tables(results, folder.path());
+  const CsvTable t = read_csv(folder / "results.csv");
+  EXPECT_EQ(t.rows[0][t.find("quantity")], "static_drop");
+  EXPECT_EQ(t.rows[0][t.find("interval")], "batches");
+  const std::string page = make_study_report(folder.path());
+  EXPECT_NE(page.find("100 &plusmn; 10 <span class=soft>(over time)</span>"), std::string::npos);
+
+  s.pressure->static_drop = {106.0, 96.0, 116.0, 20};
+  write_run(folder, "A/seed-3", s);
+  EXPECT_EQ(read_study_results(folder.path()).cases[0].find("static_drop")->interval, "replicates");
+}
+
 // Somebody's own device: what its case gives in [reference] itself is of no thesis.
 TEST(StudyReport, PlainlyGivenValuesAreAReference) {
   const Scratch folder;

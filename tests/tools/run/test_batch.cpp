@@ -288,7 +288,9 @@ TEST(StudyTable, TheIntervalOfThreeValuesIsStudents) {
   EXPECT_DOUBLE_EQ(e.mean, 2.0);
   EXPECT_NEAR(*e.ci_high - e.mean, 4.302653 / std::sqrt(3.0), 5e-4);
   EXPECT_NEAR(e.mean - *e.ci_low, 4.302653 / std::sqrt(3.0), 5e-4);
+  EXPECT_EQ(e.interval, "replicates");
   EXPECT_FALSE(output::estimate({1.0}).ci_low);
+  EXPECT_FALSE(output::estimate({2.0, 2.0, 2.0}).ci_low) << "seeds that change nothing tell nothing";
 }
 
 }  // namespace

@@ -108,6 +108,17 @@ TEST_F(Run, UntilStopsEarlierAndChangesNothingElse) {
   // The reference speed, and so the step, is that of the whole case.
   EXPECT_EQ(output::read_csv(folder_ / "short" / "history.csv").numbers("dt").front(),
             output::read_csv(folder_ / "long" / "history.csv").numbers("dt").front());
+  const output::Summary summary = output::read_summary(folder_ / "short" / "summary.json");
+  EXPECT_DOUBLE_EQ(summary.stop_time.value(), 0.05e-3);
+  EXPECT_DOUBLE_EQ(summary.case_stop_time.value(), 0.01);
+  EXPECT_TRUE(output::cut_short(summary));
+}
+
+TEST_F(Run, ThePresetAndTheCasesOwnEndAreInTheSummary) {
+  ASSERT_EQ(run("out", "--preset quick --set stop.time='200 ms' --until 0.05ms --no-report"), 0) << text("out.log");
+  const output::Summary summary = output::read_summary(folder_ / "out" / "summary.json");
+  EXPECT_EQ(summary.preset, "quick");
+  EXPECT_DOUBLE_EQ(summary.case_stop_time.value(), 0.2);
 }
 
 // One of two equal carriers without fines flies out of a duct, the other stays: half of the dose.

@@ -138,7 +138,8 @@ std::string experiment_section(const StudyResults& results) {
   std::string out = "<h2>Beside the experiments</h2>\n" + trial_section(results);
   for (const std::string& device : names_of(results.experiments, &Measurement::device)) out += beside(results, device);
   out +=
-      "<p>Simulation: mean with the half width of its 95 % interval where there are replicates. The pressure drop of "
+      "<p>Simulation: mean with the half width of its 95 % interval where there are replicates that "
+      "differ (\"over time\": of one run, from batches of its window). The pressure drop of "
       "a simulation is total to static, over the window of its run; drops go with the "
       "square of the flow rate, so only those of like flow rates can be set beside each other. These numbers: "
       "comparison.csv.</p>\n";

@@ -199,9 +199,11 @@ std::string pressures(const StudyResults& results) {
   std::string out = heading("Pressure drops");
   if (rows.empty()) return out + paragraph("No run has measured one yet.");
   return out + table({"case", "static [Pa]", "total to static [Pa]", "at a flow rate of [L/min]"}, rows) +
-         paragraph("Means over the window of each run (its last tenth unless the case says otherwise)" +
-                   brackets(results) +
-                   ". Drops go with the square of the flow rate: only those of like flow rates can be compared.");
+         paragraph(
+             "Means over the window of each run (its last tenth unless the case says otherwise)" + brackets(results) +
+             ". The interval is that of the mean over the replicates, or, \"over time\", that of one run's mean from "
+             "batches of its window: where there is one run, or the seed changes nothing. Drops go with the square of "
+             "the flow rate: only those of like flow rates can be compared.");
 }
 
 }  // namespace
@@ -210,6 +212,7 @@ std::string with_interval(const Estimate* e, double factor) {
   if (!e) return "<span class=soft>none</span>";
   std::string text = significant(e->mean * factor);
   if (e->ci_low) text += " &plusmn; " + significant((*e->ci_high - e->mean) * factor, 2);
+  if (e->interval == "batches") text += " <span class=soft>(over time)</span>";
   return text;
 }
 
