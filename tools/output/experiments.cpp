@@ -57,10 +57,13 @@ Spread spread_of(const std::vector<Measurement>& all, const std::string& device,
 std::vector<std::string> names_of(const std::vector<Measurement>& all, std::string Measurement::*member,
                                   const std::string& device) {
   std::vector<std::string> names;
+  const auto known = [&](const std::string& name) {
+    return std::any_of(names.begin(), names.end(), [&](const std::string& one) {
+      return member == &Measurement::device ? same_device(one, name) : one == name;
+    });
+  };
   for (const Measurement& m : all)
-    if ((device.empty() || same_device(m.device, device)) &&
-        std::find(names.begin(), names.end(), m.*member) == names.end())
-      names.push_back(m.*member);
+    if ((device.empty() || same_device(m.device, device)) && !known(m.*member)) names.push_back(m.*member);
   return names;
 }
 

@@ -31,7 +31,7 @@ struct Spread {
 Spread spread_of(const std::vector<Measurement>& all, const std::string& device, const std::string& copy,
                  const std::string& quantity);
 
-/// The values of a member in the order in which they first appear.
+/// The values of a member in the order in which they first appear; a device once, in its first spelling.
 std::vector<std::string> names_of(const std::vector<Measurement>& all, std::string Measurement::*member,
                                   const std::string& device = {});
 

@@ -120,6 +120,14 @@ TEST(Comparison, StandsBesideTheExperimentsInTheirUnits) {
   EXPECT_NE(page.find("<td>36.0</td>"), std::string::npos);
 }
 
+TEST(Experiments, ADeviceUnderTwoSpellingsIsOne) {
+  const std::vector<Measurement> all{{"duct", "1", "1", "FFE", 0.5}, {"Duct", "1", "2", "FFE", 0.4}};
+  EXPECT_EQ(names_of(all, &Measurement::device), std::vector<std::string>{"duct"});
+  const Scratch folder;
+  write_experiments_summary(all, folder.path());
+  EXPECT_EQ(read_csv(folder / "experiments-summary.csv").numbers("tests"), (std::vector<double>{2.0, 2.0}));
+}
+
 TEST(Experiments, OneTestHasNoDeviation) {
   const std::vector<Measurement> all{{"L-bend", "1", "1", "FFE", 0.5}, {"L-bend", "2", "1", "FFE", 0.4}};
   EXPECT_FALSE(spread_of(all, "L-bend", "1", "FFE").deviation);
