@@ -10,6 +10,7 @@
 #include "tools/output/report.hpp"
 #include "tools/output/report/chart.hpp"
 #include "tools/output/report/html.hpp"
+#include "tools/output/tables.hpp"
 
 namespace puffin::output {
 namespace {
@@ -113,6 +114,48 @@ TEST(Report, ATrialIsCalledOne) {
   summary.simulated_time = summary.stop_time.emplace(0.211);
   EXPECT_EQ(trial(summary), "");
   EXPECT_FALSE(has(whole_report(), "A trial"));
+}
+
+TEST(Report, PicturesAndChartsHaveNames) {
+  const std::string& text = whole_report();
+  EXPECT_EQ(count(text, "role=\"img\" aria-label=\""), count(text, "<svg "));
+  EXPECT_TRUE(has(text, "aria-label=\"pressure drop [Pa] over time [ms]: static, total to static\""));
+  EXPECT_TRUE(has(text, "<img alt=\"Carriers in the device, coloured by speed, t = "));
+  EXPECT_TRUE(has(text, "<img alt=\"Speed of the air on a plane, last stored moment. "));
+}
+
+// With a second scalar the numbers that are shown large say which one they are of.
+TEST(Report, OfSeveralScalarsTheShownOneIsNamed) {
+  const Scratch folder;
+  Summary summary = synthetic_summary();
+  summary.fines.push_back(summary.fines[0]);
+  summary.fines[1].name = "slow";
+  write_summary(folder / "summary.json", summary);
+  const std::string of = " of L-Base, the first of 2 scalars", text = make_report(folder.path());
+  EXPECT_TRUE(has(text, "fines emitted free (FFE)" + of));
+  EXPECT_TRUE(has(text, "The fines" + of + ": FFE free"));
+  EXPECT_FALSE(has(whole_report(), "scalars"));
+}
+
+// Carriers without air: no empty charts, and no lattice of size 0.
+TEST(Report, ADryRunLeavesTheAirOut) {
+  const Scratch folder;
+  Summary summary = synthetic_summary();
+  summary.pressure.reset(), summary.cells_fluid = summary.cells_active = 0;
+  summary.dx = summary.tau_min = summary.mach_max = 0.0;
+  write_summary(folder / "summary.json", summary);
+  {
+    CsvFile history(folder / "history.csv", history_columns());
+    HistoryRow row;
+    row.carriers_in = 3;
+    append(history, row), row.time = 0.1, append(history, row);
+    history.flush();
+  }
+  const std::string text = make_report(folder.path());
+  EXPECT_FALSE(has(text, "flow rate [L/min]"));
+  EXPECT_FALSE(has(text, "relaxation time tau"));
+  EXPECT_TRUE(has(text, "Left out: no flow through an opening"));
+  EXPECT_TRUE(has(text, "Left out: cell size"));
 }
 
 TEST(Report, ABareSummaryIsEnough) {

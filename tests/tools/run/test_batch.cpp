@@ -38,6 +38,9 @@ TEST_F(BatchStudy, AFailedCaseFailsAloneAndIsTriedAgainOnlyWhenAsked) {
   EXPECT_NE(text("out/diverges/seed-1/run.log").find("diverged"), std::string::npos);
   for (const char* name : {"report.html", "results.csv", "runs.csv", "results.json", "status.json", "index.html"})
     EXPECT_TRUE(fs::exists(folder_ / "out" / name)) << name;
+  EXPECT_NE(text("out/index.html").find("href=\"good/seed-1/index.html\""), std::string::npos);
+  EXPECT_NE(text("out/index.html").find("href=\"misspelt/seed-1/run.log\""), std::string::npos) << "it has no page";
+  EXPECT_NE(text("out/status.json").find("\"format\": 1"), std::string::npos);
 
   EXPECT_EQ(batch(""), 8);
   EXPECT_EQ(text("out/study.json").find("\"attempts\": 2"), std::string::npos) << "a failed or finished run was redone";

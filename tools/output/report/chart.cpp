@@ -49,6 +49,12 @@ std::vector<std::size_t> thinned(const Curve& curve) {
   return kept;
 }
 
+/// "pressure drop [Pa] over time [ms]: static, total to static"
+std::string spoken(std::string what, const std::vector<std::string>& names) {
+  for (std::size_t n = 0; n < names.size(); ++n) what += (n == 0 ? ": " : ", ") + names[n];
+  return what;
+}
+
 }  // namespace
 
 std::string line_chart(const LineChart& chart) {
@@ -71,7 +77,7 @@ std::string line_chart(const LineChart& chart) {
   const auto px = [&](double v) { return left + (width - left - right) * (v - x.low) / (x.high - x.low); };
   const auto py = [&](double v) { return height - bottom - (height - top - bottom) * (v - y.low) / (y.high - y.low); };
 
-  std::string svg = open(width, height);
+  std::string svg = open(width, height, spoken(chart.y_label + " over " + chart.x_label, names));
   for (const double tick : y.ticks()) {
     svg += line_at(left, py(tick), width - right, py(tick), grid_colour);
     svg += text_at(left - 8, py(tick) + 4.5, short_number(tick), "end", soft_colour);
@@ -126,7 +132,7 @@ std::string bar_chart(const BarChart& chart) {
   const double first = named ? 38 + legend_growth(series, label, width - right) : 8, total = first + rows + 46;
   const Axis axis(0.0, largest > 0 ? largest : 1.0);
   const auto px = [&](double v) { return label + (width - label - end) * v / axis.high; };
-  std::string svg = open(width, total);
+  std::string svg = open(width, total, spoken(chart.value_label, series));
   for (const double tick : axis.ticks()) {
     svg += line_at(px(tick), first, px(tick), first + rows, grid_colour);
     svg += text_at(px(tick), first + rows + 17, short_number(tick), "middle", soft_colour);

@@ -130,9 +130,9 @@ std::string base64(const std::string& bytes) {
   return out;
 }
 
-std::string figure_png(const std::string& png, const std::string& caption) {
-  return "<figure><img alt=\"" + escaped(caption) + "\" src=\"data:image/png;base64," + base64(png) +
-         "\"><figcaption>" + escaped(caption) + "</figcaption></figure>\n";
+std::string figure_png(const std::string& png, const std::string& caption, const std::string& alt) {
+  return "<figure><img alt=\"" + escaped(alt) + "\" src=\"data:image/png;base64," + base64(png) + "\"><figcaption>" +
+         escaped(caption) + "</figcaption></figure>\n";
 }
 
 std::string figure_svg(const std::string& svg, const std::string& caption) {

@@ -28,8 +28,8 @@ using Rows = std::vector<std::vector<std::string>>;
 /// Cells are HTML; the first column is text, the others are set flush right.
 std::string table(const std::vector<std::string>& head, const Rows& rows);
 std::string base64(const std::string& bytes);
-/// A figure with an embedded PNG.
-std::string figure_png(const std::string& png, const std::string& caption);
+/// A figure with an embedded PNG; `alt`: what it shows, for those who cannot see it.
+std::string figure_png(const std::string& png, const std::string& caption, const std::string& alt);
 std::string figure_svg(const std::string& svg, const std::string& caption);
 /// The frame of a page: head, style, body. Nothing is loaded from anywhere.
 std::string page(const std::string& title, const std::string& body);

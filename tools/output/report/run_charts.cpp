@@ -1,6 +1,7 @@
 #include "tools/output/report/run_charts.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "tools/output/report/chart.hpp"
@@ -8,6 +9,20 @@
 #include "tools/output/report/run_pictures.hpp"
 
 namespace puffin::output {
+namespace {
+
+/// Whether a column holds anything but zeros and gaps.
+bool measured(const std::vector<double>& values) {
+  return std::any_of(values.begin(), values.end(), [](double v) { return std::isfinite(v) && v != 0.0; });
+}
+
+}  // namespace
+
+std::string of_first_scalar(const Summary& s) {
+  if (s.fines.size() < 2) return "";
+  return " of " + s.fines[0].name + ", the first of " + std::to_string(s.fines.size()) + " scalars";
+}
+
 std::string emission_section(const RunResults& run) {
   std::string out = heading("Emission over time");
   if (!run.summary.carriers) return out + left_out("this run has no carriers.");
@@ -28,8 +43,9 @@ std::string emission_section(const RunResults& run) {
     fines.curves.push_back({name, time, run.column(name)});
   }
   out += figure_svg(line_chart(fines),
-                    "Where the fines are: FFE left the device free, FFW on the walls, FFCR on carriers in the device, "
-                    "FFCE on emitted carriers, in_air still airborne inside. They add up to 1.");
+                    "Where the fines" + of_first_scalar(run.summary) +
+                        " are: FFE left the device free, FFW on the walls, FFCR on carriers in the device, "
+                        "FFCE on emitted carriers, in_air still airborne inside. They add up to 1.");
   return out;
 }
 
@@ -37,13 +53,19 @@ std::string flow_section(const RunResults& run) {
   std::string out = heading("Flow and pressure");
   if (run.history.rows.empty()) return out + left_out("history.csv holds no rows.");
   const std::vector<double> time = run.column("time", 1e3);
+  const std::vector<double> rates = run.column("flow_rate", 6e4);
+  const bool flows = measured(rates),
+             drops = measured(run.column("static_drop")) || measured(run.column("total_to_static_drop"));
+  if (!flows && !drops) return out + left_out("no flow through an opening and no pressure drop were recorded.");
   out += "<div class=pair>\n";
-  LineChart rate{"time [ms]", "flow rate [L/min]", {{"flow rate", time, run.column("flow_rate", 6e4)}}, {}, 0.0, 520.0};
-  out += figure_svg(line_chart(rate), "Flow rate through the device.");
+  LineChart rate{"time [ms]", "flow rate [L/min]", {{"flow rate", time, rates}}, {}, 0.0, 520.0};
+  if (flows) out += figure_svg(line_chart(rate), "Flow rate through the device.");
   LineChart drop{"time [ms]", "pressure drop [Pa]", {}, {}, 0.0, 520.0};
   drop.curves = {{"static", time, run.column("static_drop")},
                  {"total to static", time, run.column("total_to_static_drop")}};
-  out += figure_svg(line_chart(drop), "Pressure drops from inlet to outlet.") + "</div>\n";
+  if (drops) out += figure_svg(line_chart(drop), "Pressure drops from inlet to outlet.");
+  out += "</div>\n";
+  if (!drops) out += left_out("the pressure drops: none was recorded.");
   if (!run.summary.pressure) return out;
   const PressureSummary& p = *run.summary.pressure;
   Rows rows;
@@ -84,9 +106,11 @@ std::string outcome_section(const RunResults& run) {
     }
     chart.groups.push_back(group);
   }
-  out += figure_svg(bar_chart(chart),
-                    "FFE free and emitted, FFW on the walls, FFCR on retained carriers, FFCE on emitted carriers, "
-                    "in_air still airborne at the end. Whiskers: the spread of the given value.");
+  out +=
+      figure_svg(bar_chart(chart),
+                 "The fines" + of_first_scalar(run.summary) +
+                     ": FFE free and emitted, FFW on the walls, FFCR on retained carriers, FFCE on emitted carriers, "
+                     "in_air still airborne at the end. Whiskers: the spread of the given value.");
   Rows rows;
   for (const auto& one : run.summary.fines) {
     rows.push_back({escaped(one.name), significant(one.FFE), significant(one.FFW), significant(one.FFCR),

@@ -23,6 +23,8 @@ struct RunResults {
   }
 };
 
+/// " of NAME, the first of 2 scalars" where there are several; "" where there is nothing to tell apart.
+std::string of_first_scalar(const Summary& summary);
 /// Carriers and fines over time.
 std::string emission_section(const RunResults& run);
 /// Flow rate and pressure drops over time, and their means.

@@ -57,6 +57,19 @@ bool newer(const fs::path& file, const fs::path& than) {
   return !error && a >= b;
 }
 
+/// Subject and time of a picture, and what its caption adds.
+std::string alt_of(const RunPicture& p) {
+  const bool hits = p.options.quantity == "hits";
+  std::string text = p.view == View::geometry      ? "The device"
+                     : p.view == View::carriers    ? "Carriers in the device, coloured by speed"
+                     : p.view == View::slice       ? "Speed of the air on a plane"
+                     : p.view == View::streamlines ? "Streamlines of the air"
+                     : hits                        ? "Impacts of carriers on the walls"
+                                                   : "Fines on the walls";
+  if (p.view != View::geometry) text += p.time ? ", " + moment(*p.time) : ", last stored moment";
+  return p.time && p.caption == moment(*p.time) ? text : text + ". " + p.caption;
+}
+
 }  // namespace
 
 std::string left_out(const std::string& why) { return "<p class=soft>Left out: " + escaped(why) + "</p>\n"; }
@@ -146,7 +159,7 @@ std::string embedded(const fs::path& run, const RunPicture& picture, bool kept) 
   std::ifstream stream(file, std::ios::binary);
   std::stringstream bytes;
   bytes << stream.rdbuf();
-  return figure_png(bytes.str(), picture.caption);
+  return figure_png(bytes.str(), picture.caption, alt_of(picture));
 }
 
 std::string embedded(const fs::path& run, const std::vector<RunPicture>& pictures, bool kept) {

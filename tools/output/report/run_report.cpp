@@ -50,9 +50,10 @@ std::string head(const RunResults& run) {
                 "of " + grouped(s.carriers->count) + " carriers emitted");
   }
   if (!s.fines.empty()) {
-    out += tile(percent(s.fines[0].FFE), "fines emitted free (FFE)");
-    out += tile(percent(s.fines[0].FFW), "fines on the walls (FFW)");
-    out += tile(significant(std::abs(s.fines[0].ledger_error), 2), "error of the fines' ledger");
+    out += tile(percent(s.fines[0].FFE), "fines emitted free (FFE)" + escaped(of_first_scalar(s)));
+    out += tile(percent(s.fines[0].FFW), "fines on the walls (FFW)" + escaped(of_first_scalar(s)));
+    out += tile(significant(std::abs(s.fines[0].ledger_error), 2),
+                "error of the fines' ledger" + escaped(of_first_scalar(s)));
   }
   if (s.pressure && s.pressure->total_to_static_drop.mean) {
     out += tile(significant(*s.pressure->total_to_static_drop.mean, 3) + " Pa", "total-to-static pressure drop");
@@ -147,8 +148,10 @@ std::string wall_map(const RunResults& run) {
   std::string out = heading("What landed on the walls");
   if (!run.summary.carriers) return out + left_out("this run has no carriers.");
   if (!can_render(run.folder, View::wall_map)) return out + left_out("no wall map is stored.");
-  return out + embedded(run.folder, wall_map_picture_of_run("fines")) +
-         embedded(run.folder, wall_map_picture_of_run("hits"));
+  RunPicture fines = wall_map_picture_of_run("fines");
+  if (const std::string scalar = of_first_scalar(run.summary); !scalar.empty())
+    fines.caption = "Fines" + scalar + ". " + fines.caption;
+  return out + embedded(run.folder, fines) + embedded(run.folder, wall_map_picture_of_run("hits"));
 }
 
 std::string slice(const RunResults& run) {
@@ -190,6 +193,13 @@ std::string acted(std::int64_t times, const Summary& s) {
 
 std::string numerics(const RunResults& run) {
   const Summary& s = run.summary;
+  const std::string title = heading("Numerics");
+  if (s.cells_active == 0)  // carriers alone: dx, tau and Mach are of no lattice
+    return title +
+           table({"", ""}, {{"time steps", grouped(s.steps)},
+                            {"time step dt", significant(s.dt_min * 1e6, 3) + " &micro;s"},
+                            {"peak memory", significant(s.memory_peak / 1048576, 3) + " MiB"}}) +
+           left_out("cell size, relaxation time and Mach number: no air was computed on a lattice.");
   Rows rows{{"cell size dx", significant(s.dx * 1e3, 4) + " mm"},
             {"fluid cells", grouped(s.cells_fluid)},
             {"computed cells", grouped(s.cells_active)},
@@ -202,7 +212,7 @@ std::string numerics(const RunResults& run) {
             {"million fluid-cell updates a second", significant(s.mlups, 3)},
             {"million computed-cell updates a second", significant(s.mlups_active, 3)},
             {"peak memory", significant(s.memory_peak / 1048576, 3) + " MiB"}};
-  return heading("Numerics") + table({"", ""}, rows);
+  return title + table({"", ""}, rows);
 }
 
 std::string assumptions(const RunResults& run) {

@@ -123,7 +123,7 @@ std::string scatter_chart(const ScatterChart& chart) {
   const double more = legend_growth(names, left, width - right), height = 520 + more, top = 66 + more;
   if (!(x1 > 0.0)) x0 = y0 = 1.0, x1 = y1 = 10.0;
   const LogAxis x(x0, x1, left, width - right), y(y0, y1, height - bottom, top);
-  std::string svg = open(width, height);
+  std::string svg = open(width, height, chart.title + ": " + chart.y_label + " over " + chart.x_label);
   svg += text_at(left, 22, escaped(chart.title), "start", text_colour, " font-size=\"15\" font-weight=\"600\"");
   for (const double tick : y.ticks()) {
     svg += line_at(left, y.pixel(tick), width - right, y.pixel(tick), grid_colour);

@@ -56,9 +56,9 @@ std::string line_at(double x0, double y0, double x1, double y1, const std::strin
          coordinate(y1) + "\" stroke=\"" + colour + "\"" + more + "/>";
 }
 
-std::string open(double w, double h) {
-  return "<svg viewBox=\"0 0 " + coordinate(w) + " " + coordinate(h) +
-         "\" role=\"img\" font-family=\"system-ui, 'DejaVu Sans', sans-serif\" font-size=\"13\">\n";
+std::string open(double w, double h, const std::string& label) {
+  return "<svg viewBox=\"0 0 " + coordinate(w) + " " + coordinate(h) + "\" role=\"img\" aria-label=\"" +
+         escaped(label) + "\" font-family=\"system-ui, 'DejaVu Sans', sans-serif\" font-size=\"13\">\n";
 }
 
 std::string standalone(const std::string& svg) {

@@ -19,8 +19,8 @@ std::string text_at(double x, double y, const std::string& text, const std::stri
                     const std::string& colour = text_colour, const std::string& more = {});
 std::string line_at(double x0, double y0, double x1, double y1, const std::string& colour,
                     const std::string& more = {});
-/// The opening tag of a drawing of that size.
-std::string open(double width, double height);
+/// The opening tag of a drawing of that size; `label`: what it shows, for those who cannot see it.
+std::string open(double width, double height, const std::string& label);
 /// A drawing as a file of its own: with its name space and a white ground.
 std::string standalone(const std::string& svg);
 /// Colour swatches with names from (x, y) on, in as many rows as they need to end before `right`; a name that is longer

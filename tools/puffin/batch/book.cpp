@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "tools/output/experiments.hpp"
+#include "tools/output/format_version.hpp"
 #include "tools/output/link_out.hpp"
 #include "tools/output/output_error.hpp"
 #include "tools/output/output_folder.hpp"
@@ -50,7 +51,15 @@ Json progress_of(const fs::path& run) {
   return j;
 }
 
-std::string page_of(const Json& status) {
+/// A run's name, leading to its page; to its log where it failed before it had one.
+std::string link_to(const std::string& id, const fs::path& study) {
+  for (const char* file : {"index.html", "run.log"})
+    if (fs::exists(study / id / file))
+      return "<a href=\"" + output::escaped(id + "/" + file) + "\">" + output::escaped(id) + "</a>";
+  return output::escaped(id);
+}
+
+std::string page_of(const Json& status, const fs::path& study) {
   std::string body = "<h1>" + output::escaped(status["study"].get<std::string>()) + "</h1><p>" +
                      output::escaped(status["state"].get<std::string>()) + ": " + status["done"].dump() + " of " +
                      status["jobs"].dump() + " runs done, " + status["failed"].dump() + " failed</p>\n";
@@ -58,9 +67,7 @@ std::string page_of(const Json& status) {
   for (const Json& job : status["runs"]) {
     const double end = job.value("end_time", 0.0), now = job.value("simulated_time", 0.0);
     const bool known = end > 0.0 && job["state"] == "running";
-    const std::string id = output::escaped(job["id"].get<std::string>());
-    rows.push_back({job["state"] == "waiting" ? id : "<a href=\"" + id + "/index.html\">" + id + "</a>",
-                    job["state"].get<std::string>(),
+    rows.push_back({link_to(job["id"].get<std::string>(), study), job["state"].get<std::string>(),
                     known ? output::progress_bar(now / end) + " " + output::significant(1e3 * now) + " of " +
                                 output::significant(1e3 * end) + " ms"
                           : output::escaped(job.value("message", "")),
@@ -256,7 +263,8 @@ void Book::write_live(const std::string& state, double wall_clock) const {
     if (r.state == JobState::done) cost_done += plan_.jobs[k].cost;
     runs.push_back(j);
   }
-  const Json status{{"study", study_.file.stem().string()},
+  const Json status{{"format", output::format_version},
+                    {"study", study_.file.stem().string()},
                     {"state", state},
                     {"jobs", plan_.jobs.size()},
                     {"done", done},
@@ -265,7 +273,7 @@ void Book::write_live(const std::string& state, double wall_clock) const {
                     {"wall_clock", wall_clock},
                     {"runs", runs}};
   output::write_whole(folder_ / "status.json", dumped(status));
-  output::write_whole(folder_ / "index.html", page_of(status));
+  output::write_whole(folder_ / "index.html", page_of(status, folder_));
 }
 
 }  // namespace puffin::tools

@@ -92,7 +92,8 @@ std::string stability_map(const json& rows) {
   }
   const std::string title =
       svg::text_at(8.0, 14.0, "What ran, by scene, setting and lattice speed of the reference", "start");
-  return svg::standalone(svg::open(std::max(widest, at), y + tallest) + title + key + body + "</svg>");
+  return svg::standalone(svg::open(std::max(widest, at), y + tallest, "Map of stability") + title + key + body +
+                         "</svg>");
 }
 
 }  // namespace puffin::tools
