@@ -1,8 +1,6 @@
 // puffin check: configuration, geometry, stability; every problem at once, nothing is run.
 
 #include <CLI/CLI.hpp>
-#include <cmath>
-#include <filesystem>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -12,11 +10,10 @@
 #include "cases/check_tables.hpp"
 #include "cases/fill.hpp"
 #include "cases/micromodel_file.hpp"
-#include "cases/search_path.hpp"
-#include "cases/stability_envelope.hpp"
 #include "cases/write_case.hpp"
 #include "tools/puffin/arguments.hpp"
 #include "tools/puffin/assessment_text.hpp"
+#include "tools/puffin/case_warnings.hpp"
 #include "tools/puffin/commands.hpp"
 #include "tools/puffin/console.hpp"
 #include "tools/puffin/exit_codes.hpp"
@@ -58,15 +55,6 @@ void check_places(const cases::Case& c, const cases::Surface& surface, const lbm
   append(problems, cases::output_place_problems(c, tree, cells ? cases::cell_size(c.numerics, surface.volume) : 0.0));
 }
 
-/// Settings that diverged in the map of stability, or are not in it.
-void check_stability(const cases::Case& c, cases::Assessment& assessment) {
-  const std::filesystem::path map = cases::stability_directory() / "envelope.toml";
-  if (!assessment.lattice || !std::filesystem::exists(map)) return;
-  const double speed = assessment.lattice->mach / std::sqrt(3.0);
-  auto text = cases::outside_envelope(c, assessment.lattice->tau, speed, cases::read_envelope(map));
-  if (!text.empty()) assessment.warnings.push_back(std::move(text));
-}
-
 int check_case(const CaseArguments& a) {
   const cases::Case c = a.read();
   Problems problems;
@@ -85,7 +73,7 @@ int check_case(const CaseArguments& a) {
   cases::Assessment assessment = cases::assess(c, surface);
   if (tree)
     for (auto& w : cases::carrier_place_warnings(c, *tree)) assessment.warnings.push_back(std::move(w));
-  check_stability(c, assessment);
+  warn_of_stability(c, assessment);
   for (auto& w : cases::boundary_warnings(c, surface)) assessment.warnings.push_back(std::move(w));
   for (const lbm::geometry::Defect& d : surface.defects) assessment.warnings.push_back(d.kind + ": " + d.message);
   const std::vector<std::string> assumed = cases::assumptions(c);

@@ -15,6 +15,7 @@
 #include "coupling/health.hpp"
 #include "dem/failure.hpp"
 #include "tools/output/report.hpp"
+#include "tools/puffin/case_warnings.hpp"
 #include "tools/puffin/console.hpp"
 #include "tools/puffin/exit_codes.hpp"
 #include "tools/puffin/finished.hpp"
@@ -118,9 +119,12 @@ class Company {
     Population p;
     p.out = given.out;
     p.case_stop_time = stop_time_of(c, given.case_file, given.sets, options_.preset);
+    const std::vector<std::string> doubts = assessment_warnings(c);
     p.simulation = built(c, given.case_file, options_.beds);
     p.simulation->models.carriers.asked_to_stop = [] { return Signals::received() != 0; };
-    const std::vector<std::string> warnings = first_warnings(*p.simulation);
+    auto& warnings = p.simulation->warnings;
+    warnings = first_warnings(*p.simulation);
+    add_new(doubts, warnings);
     p.folder = std::make_unique<output::OutputFolder>(given.out, c.name);
     announce(*p.folder, c);
     try {

@@ -11,6 +11,7 @@
 
 #include "cases/write_case.hpp"
 #include "tools/output/report.hpp"
+#include "tools/puffin/case_warnings.hpp"
 #include "tools/puffin/console.hpp"
 #include "tools/puffin/exit_codes.hpp"
 #include "tools/puffin/opening.hpp"
@@ -65,17 +66,20 @@ int run_in(const output::OutputFolder& folder, const RunOptions& options, cases:
 
 /// The run on the threads of the arena that it is called in.
 int run_here(const RunOptions& options, cases::Case c, int threads, Clock::time_point start) {
+  const std::vector<std::string> doubts = assessment_warnings(c);
   const auto simulation = built(c, options.case_file, options.beds);
   cases::Simulation& s = *simulation;
   // Only now: the reference speed, and with it the time step, belong to the whole run that the case describes.
   const double case_stop_time = stop_time_of(c, options.case_file, options.sets, options.preset);
   c.stop.time = std::min(c.stop.time, options.until);
-  for (const std::string& text : first_warnings(s)) log_warning(text);
   const auto out = options.out.empty() ? std::nullopt : std::optional(options.out);
   const output::OutputFolder folder(out, c.name, options.resume);
   announce(folder, c);
   try {
     log_to_file(folder.file("log.txt"));
+    s.warnings = first_warnings(s);
+    add_new(doubts, s.warnings);
+    for (const std::string& text : s.warnings) log_warning(text);
     if (options.resume && !folder.resumed())
       log_warning(folder.path().string() + " was killed before its first checkpoint: the run begins anew");
     keep_case(c, folder);

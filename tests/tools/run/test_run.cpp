@@ -114,6 +114,18 @@ TEST_F(Run, UntilStopsEarlierAndChangesNothingElse) {
   EXPECT_TRUE(output::cut_short(summary));
 }
 
+// As `puffin check`: on cells of 0.5 mm the inlet has too few of them for its jet.
+TEST_F(Run, WhatTheCheckWarnsOfIsInTheLogAndTheSummaryOnce) {
+  ASSERT_EQ(run("out", "--until 0.05ms --no-report"), 0) << text("out.log");
+  const std::vector<std::string> told = output::read_summary(folder_ / "out" / "summary.json").warnings;
+  const auto of_inlet = [](const std::string& w) { return w.starts_with("the inlet \"inlet\" has"); };
+  EXPECT_EQ(std::count_if(told.begin(), told.end(), of_inlet), 1);
+  for (const std::string& one : told) {
+    EXPECT_EQ(std::count(told.begin(), told.end(), one), 1) << one;
+    EXPECT_NE(text("out/log.txt").find(one), std::string::npos) << one;
+  }
+}
+
 TEST_F(Run, ThePresetAndTheCasesOwnEndAreInTheSummary) {
   ASSERT_EQ(run("out", "--preset quick --set stop.time='200 ms' --until 0.05ms --no-report"), 0) << text("out.log");
   const output::Summary summary = output::read_summary(folder_ / "out" / "summary.json");

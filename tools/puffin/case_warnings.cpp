@@ -1,0 +1,35 @@
+#include "tools/puffin/case_warnings.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <utility>
+
+#include "cases/search_path.hpp"
+#include "cases/stability_envelope.hpp"
+
+namespace puffin::tools {
+
+void warn_of_stability(const cases::Case& c, cases::Assessment& assessment) {
+  const std::filesystem::path map = cases::stability_directory() / "envelope.toml";
+  if (!assessment.lattice || !std::filesystem::exists(map)) return;
+  const double speed = assessment.lattice->mach / std::sqrt(3.0);
+  auto text = cases::outside_envelope(c, assessment.lattice->tau, speed, cases::read_envelope(map));
+  if (!text.empty()) assessment.warnings.push_back(std::move(text));
+}
+
+std::vector<std::string> assessment_warnings(const cases::Case& c) try {
+  if (c.air.model != cases::AirModel::lbm) return {};
+  cases::Assessment assessment = cases::assess(c, cases::load_surface(c));
+  warn_of_stability(c, assessment);
+  return assessment.warnings;
+} catch (const std::exception&) {
+  return {};
+}
+
+void add_new(const std::vector<std::string>& more, std::vector<std::string>& warnings) {
+  for (const std::string& text : more)
+    if (std::find(warnings.begin(), warnings.end(), text) == warnings.end()) warnings.push_back(text);
+}
+
+}  // namespace puffin::tools
