@@ -31,6 +31,7 @@ int batch(const BatchOptions& options) {
   require_a_name(study, plan, options.only);
   if (!options.quiet)
     for (const Sharing& s : plan.sharings) log_info("share " + s.name + (s.done ? ": " : ", not done: ") + s.what);
+  for (const std::string& text : plan.warnings) log_warning(text);
   Book book(options.out.empty() ? std::filesystem::path("studies") / output::folder_name(options.study.stem().string())
                                 : options.out,
             study, plan);

@@ -152,6 +152,8 @@ int plan_study(const CaseArguments& a) {
       print((s.done ? "  shared   " : "  apart    ") + s.name + ": " + s.what +
             (s.error.empty() ? "" : "; " + s.error));
   }
+  for (const std::string& text : plan.warnings) log_warning(text);
+  j["warnings"] = plan.warnings;
   if (a.json) print(j.dump(2, ' ', false, json::error_handler_t::replace));
   return bad ? case_invalid : ok;
 }

@@ -112,6 +112,19 @@ TEST_F(BatchStudy, ALinkOutOfTheStudyIsRefused) {
   EXPECT_EQ(text("mine.txt"), "mine");
 }
 
+TEST_F(BatchStudy, ReplicatesWithoutAnythingForTheirSeedAreWarnedOf) {
+  file("study.toml",
+       "base = \"case.toml\"\nreplicates = 2\n[[case]]\nname = \"calm\"\n[[case]]\nname = \"rough\"\n"
+       "set = { \"air.boundary[0].turbulence\" = 0.05 }\n");
+  ASSERT_EQ(shell(std::string(PUFFIN_BINARY_DIR) + "/puffin plan study.toml > /dev/null 2> log.txt"), 0);
+  EXPECT_NE(text("log.txt").find("replicates of calm will all be equal"), std::string::npos) << text("log.txt");
+  ASSERT_EQ(batch(""), 0) << text("log.txt");
+  const output::StudyResults results = output::read_study_results(folder_ / "out");
+  EXPECT_EQ(results.cases[0].find("static_drop")->n, 2);
+  EXPECT_NE(results.cases[0].find("static_drop")->interval, "replicates");
+  EXPECT_EQ(results.cases[1].find("static_drop")->interval, "replicates");
+}
+
 TEST_F(BatchStudy, TheTableStandsBesideTheGivenValues) {
   file("study.toml", "base = \"case.toml\"\nreplicates = 2\n[[case]]\nname = \"a\"\n");
   ASSERT_EQ(batch(""), 0) << text("log.txt");
@@ -121,10 +134,11 @@ TEST_F(BatchStudy, TheTableStandsBesideTheGivenValues) {
   for (std::size_t n = 0; n < table.rows.size(); ++n)
     if (table.rows[n][names] == "static_drop") {
       found = true;
-      const double one = *output::read_summary(folder_ / "out/a/seed-1/summary.json").pressure->static_drop.mean;
-      // Nothing in this case is random: both seeds give the same, and the interval has no width.
-      EXPECT_DOUBLE_EQ(table.numbers("mean")[n], one);
-      EXPECT_DOUBLE_EQ(table.numbers("ci_high")[n], one);
+      const auto one = output::read_summary(folder_ / "out/a/seed-1/summary.json").pressure->static_drop;
+      // Nothing in this case is random: both seeds give the same, and say nothing of an interval.
+      EXPECT_DOUBLE_EQ(table.numbers("mean")[n], *one.mean);
+      EXPECT_EQ(std::isnan(table.numbers("ci_high")[n]), !one.ci_high);
+      EXPECT_NE(table.rows[n][static_cast<std::size_t>(table.find("interval"))], "replicates");
       EXPECT_EQ(table.numbers("replicates")[n], 2.0);
       EXPECT_EQ(table.numbers("thesis")[n], 100.0);
     }

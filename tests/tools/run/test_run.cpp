@@ -80,8 +80,9 @@ TEST_F(Run, ARunThatDivergesEndsWith5AndSaysWhere) {
   const output::Summary s = output::read_summary(folder_ / "bad" / "summary.json");
   EXPECT_EQ(s.state, "diverged");
   EXPECT_NE(s.message.find("the first at ["), std::string::npos) << s.message;
-  ASSERT_EQ(s.warnings.size(), 3U);
-  EXPECT_NE(s.warnings[2].find("retreat 3 of 3"), std::string::npos) << s.warnings[2];
+  const auto of_retreat = [](const std::string& w) { return w.starts_with("retreat "); };
+  EXPECT_EQ(std::count_if(s.warnings.begin(), s.warnings.end(), of_retreat), 3) << "behind those of the case";
+  EXPECT_TRUE(s.warnings.back().starts_with("retreat 3 of 3")) << s.warnings.back();
   EXPECT_NE(text("bad/log.txt").find("retreat 1 of 3"), std::string::npos);
   EXPECT_FALSE(output::list_checkpoints(folder_ / "bad").empty()) << "the last good state is kept";
 }
@@ -93,7 +94,7 @@ TEST_F(Run, ARetreatWithASmallerStepSavesARun) {
   ASSERT_EQ(run("saved", "--set numerics.reference_speed=\"" + speed + "\" --until 6ms"), 0) << text("saved.log");
   const output::Summary s = output::read_summary(folder_ / "saved" / "summary.json");
   EXPECT_EQ(s.state, "finished");
-  ASSERT_GE(s.warnings.size(), 1U);
+  EXPECT_TRUE(s.warnings.back().starts_with("retreat ")) << s.warnings.back();
   EXPECT_LT(s.dt_min, 0.51 * s.dt_max);
   const auto saved = output::read_csv(folder_ / "saved" / "history.csv");
   const std::vector<double> times = saved.numbers("time");

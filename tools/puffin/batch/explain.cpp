@@ -69,6 +69,16 @@ void explain(const cases::Study& study, const std::vector<Job>& jobs, std::vecto
         {"geometry", false, "finding the cells takes about a second of a run: not worth a shared file", ""});
 }
 
+void warn_of_equal_replicates(const cases::Study& study, Jobs& plan) {
+  std::string names;
+  for (const Job& job : plan.jobs)
+    if (job.replicate == 0 && !job.seeded) names += (names.empty() ? "" : ", ") + listed(study, job);
+  if (study.replicates < 2 || names.empty()) return;
+  plan.warnings.push_back("replicates of " + names +
+                          " will all be equal: without carriers and without turbulence at "
+                          "an inlet the seed acts on nothing");
+}
+
 void explain_beds(const cases::Study& study, std::string_view preset, Jobs& plan) {
   std::map<std::string, std::pair<int, std::string>> beds;  // jobs, and the names of their cases
   for (const Job& job : plan.jobs) {

@@ -22,4 +22,7 @@ void explain(const cases::Study& study, const std::vector<Job>& jobs, std::vecto
 /// Adds which cases begin from one bed. Cases in one run share it anyway.
 void explain_beds(const cases::Study& study, std::string_view preset, Jobs& plan);
 
+/// Warns of the cases whose replicates will all be equal: the seed acts on nothing there.
+void warn_of_equal_replicates(const cases::Study& study, Jobs& plan);
+
 }  // namespace puffin::tools

@@ -55,6 +55,12 @@ struct Candidate {
   std::string key;  // equal for cases that can share a run; empty: runs alone
 };
 
+/// Carriers are placed and sized, and turbulence of an inlet is made, with the seed; nothing else is.
+bool seed_acts(const cases::Case& c) {
+  return c.carriers || std::any_of(c.air.boundaries.begin(), c.air.boundaries.end(),
+                                   [](const cases::Boundary& b) { return b.turbulence > 0.0; });
+}
+
 Candidate candidate(const cases::Study& study, std::size_t which, int replicate, std::string_view preset) {
   Candidate c;
   const cases::StudyCase& asked = study.cases[which];
@@ -70,6 +76,7 @@ Candidate candidate(const cases::Study& study, std::size_t which, int replicate,
     c.job.sets = cases::overrides_of(asked, replicate);
     c.job.resolved = cases::write_resolved(*c.described);
     c.job.settles = study.share.start && !bed_key(*c.described).empty();
+    c.job.seeded = seed_acts(*c.described);
     c.job.cost = cost_of(*c.described);
     c.job.members[0].fines_of_dose = fines_of_dose(*c.described);
     if ((study.share.scalars || study.share.micromodels) && can_share(*c.described))
@@ -212,6 +219,7 @@ Jobs plan_jobs(const cases::Study& study, std::string_view preset) {
   }
   require_own_folders(study, plan.jobs);
   explain(study, plan.jobs, plan.sharings);
+  warn_of_equal_replicates(study, plan);
   if (study.share.start) explain_beds(study, preset, plan);
   if (study.share.one_way_flow) share_flows(study, preset, plan);
   return plan;

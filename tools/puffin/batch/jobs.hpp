@@ -29,6 +29,7 @@ struct Job {
   std::string problem;   // why it is invalid
   double cost = 0.0;     // relative: cells times steps
   std::string flow;      // jobs with the same one run in one process and one flow; "" alone
+  bool seeded = true;    // the seed acts on something: a replicate is another run
   bool settles = false;  // its dose falls before it starts: the bed can serve other runs of the study
 };
 
@@ -41,6 +42,7 @@ struct Sharing {
 struct Jobs {
   std::vector<Job> jobs;
   std::vector<Sharing> sharings;
+  std::vector<std::string> warnings;
 };
 
 /// share = scalars: cases that are equal but for their name, reference and the diffusion and scheme of their one
