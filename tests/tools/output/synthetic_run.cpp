@@ -147,7 +147,7 @@ Summary synthetic_summary() {
   s.tau_min = 0.50031, s.mach_max = 0.23, s.memory_peak = 1.62e8;
   s.phases = {{"air", 190.0}, {"carriers", 71.5}, {"fines", 30.2}, {"coupling", 14.1}, {"output", 6.6}};
   s.skipped = {{"carriers asleep in the pocket", 310000, 48.0}, {"fines before the first contact", 120000, 22.5}};
-  s.pressure = PressureSummary{{1950, 1900, 2000, 20}, {2610, 2550, 2670, 20}, 0.19, 0.211};
+  s.pressure = PressureSummary{{1950, 1900, 2000, 20}, {2610, 2550, 2670, 20}, 0.19, 0.211, {}};
   s.carriers = CarrierSummary{15000, 14640, 360, 0.024, 0.064, 0.0971, 0.2098, 0.13, {}};
   s.fines = {{"L-Base", 0.64, 0.13, 0.022, 0.205, 0.003, 4e-13, {0.996, 0.0039, 1e-4}}};
   s.collisions = CollisionSummary{231000, 498000, 23, 24, 5.9e-10, 2.1e-13, {}};

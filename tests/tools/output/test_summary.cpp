@@ -17,6 +17,7 @@ Summary full_summary() {
   s.version = "0.1.0";
   s.state = "finished";
   s.message = "every carrier has left";
+  s.preset = "fast", s.stop_time = 0.211, s.case_stop_time = 0.3;
   s.simulated_time = 0.211;
   s.wall_clock = 350.5;
   s.threads = 2;
@@ -34,7 +35,8 @@ Summary full_summary() {
   s.memory_peak = 1.5e8;
   s.phases = {{"collide and stream", 200.5}, {"carriers", 120.25}};
   s.skipped = {{"carriers at rest", 1200, 33.5}};
-  s.pressure = PressureSummary{{2400.0, 2300.0, 2500.0, 20}, {2600.0, 2550.0, 2650.0, 21}, 0.19, 0.211};
+  s.pressure = PressureSummary{
+      {2400.0, 2300.0, 2500.0, 20}, {2600.0, 2550.0, 2650.0, 21}, 0.19, 0.211, {6e-4, 5.9e-4, 6.1e-4, 20}};
   s.forces = {{"wall", 1e-3, 2e-3, 3e-3}};
   s.air_mass = AirMass{1.5e-6, 1.25e-6, 2.5e-7, 40};
   s.carriers = CarrierSummary{25000, 24990, 10, 0.0004, 0.064, 0.097, 0.2105, 0.13};

@@ -60,14 +60,15 @@ bool newer(const fs::path& file, const fs::path& than) {
 /// Subject and time of a picture, and what its caption adds.
 std::string alt_of(const RunPicture& p) {
   const bool hits = p.options.quantity == "hits";
-  std::string text = p.view == View::geometry      ? "The device"
-                     : p.view == View::carriers    ? "Carriers in the device, coloured by speed"
+  std::string text = p.view == View::carriers      ? "Carriers in the device, coloured by speed"
                      : p.view == View::slice       ? "Speed of the air on a plane"
                      : p.view == View::streamlines ? "Streamlines of the air"
                      : hits                        ? "Impacts of carriers on the walls"
                                                    : "Fines on the walls";
-  if (p.view != View::geometry) text += p.time ? ", " + moment(*p.time) : ", last stored moment";
-  return p.time && p.caption == moment(*p.time) ? text : text + ". " + p.caption;
+  if (p.view == View::geometry) return p.caption;
+  if (p.time && p.caption.ends_with(moment(*p.time))) return text + ", " + p.caption;
+  text += p.time ? ", " + moment(*p.time) : ", last stored moment";
+  return text + ". " + p.caption;
 }
 
 }  // namespace
