@@ -122,13 +122,12 @@ class Company {
     const std::vector<std::string> doubts = assessment_warnings(c);
     p.simulation = built(c, given.case_file, options_.beds);
     p.simulation->models.carriers.asked_to_stop = [] { return Signals::received() != 0; };
-    auto& warnings = p.simulation->warnings;
-    warnings = first_warnings(*p.simulation);
-    add_new(doubts, warnings);
+    p.simulation->warnings = first_warnings(*p.simulation);
+    add_new(doubts, p.simulation->warnings);
     p.folder = std::make_unique<output::OutputFolder>(given.out, c.name);
     announce(*p.folder, c);
     try {
-      begin_in_folder(p, c, warnings);
+      begin_in_folder(p, c);
     } catch (const std::exception&) {
       close_failed(*p.folder, {});
       throw;
@@ -137,9 +136,9 @@ class Company {
     all_.push_back(std::move(p));
   }
 
-  void begin_in_folder(Population& p, const cases::Case& c, const std::vector<std::string>& warnings) {
+  void begin_in_folder(Population& p, const cases::Case& c) {
     const LogToFile log(p.folder->file("log.txt"));
-    for (const std::string& text : warnings) log_warning(c.name + ": " + text);
+    for (const std::string& text : p.simulation->warnings) log_warning(c.name + ": " + text);
     keep_case(c, *p.folder);
     p.health = std::make_unique<coupling::Health>(p.simulation->models, p.state());
     p.recorder = std::make_unique<Recorder>(*p.simulation, *p.folder);
@@ -245,8 +244,7 @@ class Company {
     facts.state = state;
     facts.message = message;
     facts.wall_clock = seconds_since(start_);
-    facts.set_up = p.set_up;
-    facts.output = p.output;
+    facts.set_up = p.set_up, facts.output = p.output;
     facts.threads = options_.threads;
     facts.preset = options_.preset;
     facts.case_stop_time = p.case_stop_time;

@@ -204,4 +204,17 @@ TEST_F(BatchStudy, ARunWhoseFilesAreGoneTakesNoOthersPage) {
   EXPECT_NE(text("json.txt").find("\"FFE\""), std::string::npos);
 }
 
+TEST_F(BatchStudy, ReplicatesWithoutAnythingForTheirSeedAreWarnedOf) {
+  file("study.toml",
+       "base = \"case.toml\"\nreplicates = 2\n[[case]]\nname = \"calm\"\n[[case]]\nname = \"rough\"\n"
+       "set = { \"air.boundary[0].turbulence\" = 0.05 }\n");
+  ASSERT_EQ(shell(std::string(PUFFIN_BINARY_DIR) + "/puffin plan study.toml > /dev/null 2> log.txt"), 0);
+  EXPECT_NE(text("log.txt").find("replicates of calm will all be equal"), std::string::npos) << text("log.txt");
+  ASSERT_EQ(batch(""), 0) << text("log.txt");
+  const output::StudyResults results = output::read_study_results(folder_ / "out");
+  EXPECT_EQ(results.cases[0].find("static_drop")->n, 2);
+  EXPECT_NE(results.cases[0].find("static_drop")->interval, "replicates");
+  EXPECT_EQ(results.cases[1].find("static_drop")->interval, "replicates");
+}
+
 }  // namespace

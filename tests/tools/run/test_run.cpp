@@ -94,7 +94,8 @@ TEST_F(Run, ARetreatWithASmallerStepSavesARun) {
   ASSERT_EQ(run("saved", "--set numerics.reference_speed=\"" + speed + "\" --until 6ms"), 0) << text("saved.log");
   const output::Summary s = output::read_summary(folder_ / "saved" / "summary.json");
   EXPECT_EQ(s.state, "finished");
-  EXPECT_TRUE(s.warnings.back().starts_with("retreat ")) << s.warnings.back();
+  EXPECT_TRUE(std::any_of(s.warnings.begin(), s.warnings.end(),
+                          [](const std::string& w) { return w.starts_with("retreat "); }));
   EXPECT_LT(s.dt_min, 0.51 * s.dt_max);
   const auto saved = output::read_csv(folder_ / "saved" / "history.csv");
   const std::vector<double> times = saved.numbers("time");
