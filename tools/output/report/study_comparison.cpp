@@ -72,7 +72,7 @@ std::string beside(const StudyResults& results, const std::string& device) {
       ours.push_back(e ? with_interval(e, factor) : "");
     }
     if (!any) continue;
-    if (flows) ours.push_back(with_interval(c.find("flow_rate"), 6e4));
+    if (flows) ours.push_back(flow_rate_of(c));
     rows.push_back(ours);
     for (const char* source : {"thesis", "reference"}) {
       const std::vector<std::string> theirs = given_row(c, source, shown);

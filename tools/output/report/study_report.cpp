@@ -194,8 +194,8 @@ std::string pressures(const StudyResults& results) {
   Rows rows;
   for (const StudyCaseResult& c : results.cases)
     if (c.find("static_drop") || c.find("total_to_static_drop"))
-      rows.push_back({escaped(c.name), with_given(c, "static_drop"), with_given(c, "total_to_static_drop"),
-                      with_given(c, "flow_rate", 6e4)});
+      rows.push_back(
+          {escaped(c.name), with_given(c, "static_drop"), with_given(c, "total_to_static_drop"), flow_rate_of(c)});
   std::string out = heading("Pressure drops");
   if (rows.empty()) return out + paragraph("No run has measured one yet.");
   return out + table({"case", "static [Pa]", "total to static [Pa]", "at a flow rate of [L/min]"}, rows) +
@@ -214,6 +214,11 @@ std::string with_interval(const Estimate* e, double factor) {
   if (e->ci_low) text += " &plusmn; " + significant((*e->ci_high - e->mean) * factor, 2);
   if (e->interval == "batches") text += " <span class=soft>(over time)</span>";
   return text;
+}
+
+std::string flow_rate_of(const StudyCaseResult& c) {
+  const Estimate* e = c.find("flow_rate");
+  return e ? significant(e->mean * 6e4) : "<span class=soft>none</span>";
 }
 
 std::string make_study_report(const fs::path& study) {

@@ -10,6 +10,8 @@ namespace puffin::output {
 
 /// "0.412 &plusmn; 0.03": the mean with the half width of its 95 % interval, if there are replicates.
 std::string with_interval(const Estimate* e, double factor = 1.0);
+/// "36.0": the mean flow rate [L/min] that a case's pressure drops are of.
+std::string flow_rate_of(const StudyCaseResult& c);
 /// The first replicate that is done; nullptr if none is.
 const StudyRun* first_done(const StudyCaseResult& c);
 
