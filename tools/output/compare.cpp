@@ -19,8 +19,16 @@ bool covers(const std::string& pattern, const std::string& name) {
   return name == pattern || (name.starts_with(pattern) && name[pattern.size()] == '.');
 }
 
+/// What stands in `reference` is given, or repeats a number that is judged under its own name: only who names it means
+/// it.
+bool is_repeated(const std::string& name, const Tolerances& tolerances) {
+  return name.starts_with("reference.") && std::none_of(tolerances.named.begin(), tolerances.named.end(),
+                                                        [&](const auto& given) { return covers(given.first, name); });
+}
+
 bool is_ignored(const std::string& name, const Tolerances& tolerances) {
   const auto hit = [&](const std::string& pattern) { return covers(pattern, name); };
+  if (is_repeated(name, tolerances)) return true;
   return name.ends_with(".seconds_saved") || std::any_of(about_the_machine.begin(), about_the_machine.end(), hit) ||
          std::any_of(tolerances.ignored.begin(), tolerances.ignored.end(), hit);
 }
@@ -29,14 +37,15 @@ bool is_ignored(const std::string& name, const Tolerances& tolerances) {
 constexpr double of_ledgers = 1e-12;
 
 Tolerance tolerance_for(const std::string& name, const Tolerances& tolerances) {
-  Tolerance standard = tolerances.standard;
-  if (name.ends_with("ledger_error") || name.ends_with("momentum_error"))
-    standard.absolute = std::max(standard.absolute, of_ledgers);
-  const Tolerance* best = &standard;
+  const bool of_ledger = name.ends_with("ledger_error") || name.ends_with("momentum_error");
+  Tolerance best = tolerances.standard;
   std::size_t longest = 0;
-  for (const auto& [pattern, tolerance] : tolerances.named)
-    if (pattern.size() >= longest && covers(pattern, name)) best = &tolerance, longest = pattern.size();
-  return *best;
+  for (const auto& [pattern, tolerance] : tolerances.named) {
+    if (pattern == name) return tolerance;
+    if (pattern.size() >= longest && covers(pattern, name)) best = tolerance, longest = pattern.size();
+  }
+  if (of_ledger) best.absolute = std::max(best.absolute, of_ledgers);
+  return best;
 }
 
 using Numbers = std::vector<std::pair<std::string, double>>;

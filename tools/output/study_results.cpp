@@ -77,7 +77,12 @@ StudyRun run_of(const Json& described, const Json& jobs, const fs::path& study) 
     }
   if (run.state != "done") return run;
   const std::string replay = text(described, "replay");
-  run.summary = summary_of(study / run.folder, run.scalar, replay, described.value("fines_of_dose", 0.0));
+  try {
+    run.summary = summary_of(study / run.folder, run.scalar, replay, described.value("fines_of_dose", 0.0));
+  } catch (const OutputError& e) {  // damaged: it alone has failed
+    run.state = "failed", run.exit_code = 7, run.message = e.what();
+    return run;
+  }
   if (!run.summary && !replay.empty())
     run.state = "failed", run.exit_code = 7, run.message = "its fines could not be replayed from this run";
   return run;

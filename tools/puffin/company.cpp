@@ -125,7 +125,7 @@ class Company {
     p.simulation->warnings = first_warnings(*p.simulation);
     add_new(doubts, p.simulation->warnings);
     p.folder = std::make_unique<output::OutputFolder>(given.out, c.name);
-    announce(*p.folder, c);
+    announce(*p.folder, c.name, c.stop.time);
     try {
       begin_in_folder(p, c);
     } catch (const std::exception&) {

@@ -81,12 +81,12 @@ double Progress::work(double t) const {
   return sum;
 }
 
-void announce(const output::OutputFolder& folder, const cases::Case& c) {
+void announce(const output::OutputFolder& folder, const std::string& name, double end_time) {
   output::Status status;
-  status.name = c.name;
+  status.name = name;
   status.state = "running";
   status.phase = "set-up";
-  status.end_time = c.stop.time;
+  status.end_time = end_time;
   output::write_status(folder.file("status.json"), status);
 }
 

@@ -32,7 +32,7 @@ class Progress {
 };
 
 /// status.json of a run that has only just got its folder, so that what follows is known to be a run.
-void announce(const output::OutputFolder& folder, const cases::Case& c);
+void announce(const output::OutputFolder& folder, const std::string& name, double end_time);
 
 /// How the run ended, in status.json and on its page. wall_clock: of summary.json [s]; 0: as it stands. state
 /// "finished" leaves nothing to go.

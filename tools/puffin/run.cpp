@@ -69,12 +69,10 @@ int run_here(const RunOptions& options, cases::Case c, int threads, Clock::time_
   const std::vector<std::string> doubts = assessment_warnings(c);
   const auto simulation = built(c, options.case_file, options.beds);
   cases::Simulation& s = *simulation;
-  // Only now: the reference speed, and with it the time step, belong to the whole run that the case describes.
   const double case_stop_time = stop_time_of(c, options.case_file, options.sets, options.preset);
-  c.stop.time = std::min(c.stop.time, options.until);
   const auto out = options.out.empty() ? std::nullopt : std::optional(options.out);
   const output::OutputFolder folder(out, c.name, options.resume);
-  announce(folder, c);
+  announce(folder, c.name, std::min(c.stop.time, options.until));
   try {
     log_to_file(folder.file("log.txt"));
     s.warnings = first_warnings(s);

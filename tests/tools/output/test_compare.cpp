@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/tools/output/scratch.hpp"
 #include "tools/output/compare.hpp"
 #include "tools/output/output_error.hpp"
@@ -59,19 +61,37 @@ TEST(Compare, LedgersDifferByWhatTheyKeep) {
   const Scratch folder;
   leave_run(folder / "a", 0.5, 1.0, 0.125, 0.0);
   leave_run(folder / "b", 0.5, 1.0, 0.125, 0.0);
-  const auto off_by = [&](double error) {
+  const auto off_by = [&](double error, const Tolerances& tolerances = {}) {
     Summary s;
     s.name = "x", s.state = "finished", s.simulated_time = 1.0;
     FinesSummary fines;
     fines.name = "drug", fines.ledger_error = error;
     s.fines.push_back(fines);
     write_summary(folder / "b" / "summary.json", s);
-    const auto all = compare_runs(folder / "a", folder / "b", {}).differences;
+    const auto all = compare_runs(folder / "a", folder / "b", tolerances).differences;
     return named(all, "fines.drug.ledger_error")->within();
   };
   EXPECT_TRUE(off_by(3e-17));
+  EXPECT_TRUE(off_by(3e-17, {{}, {{"fines", {0.0, 0.5}}}, {}})) << "a group knows nothing of ledgers";
+  EXPECT_FALSE(off_by(3e-17, {{}, {{"fines.drug.ledger_error", {0.0, 0.5}}}, {}}));
   EXPECT_TRUE(off_by(-0.9e-12));
   EXPECT_FALSE(off_by(1.1e-12));
+}
+
+// reference.FFE.ours is FFE once more, and would be judged without FFE's tolerance.
+TEST(Compare, WhatTheReferenceRepeatsIsJudgedUnderItsOwnNameAlone) {
+  const Scratch folder;
+  for (const auto& [run, ours] : {std::pair("a", 0.50), std::pair("b", 0.51)}) {
+    leave_run(folder / run, ours, 1.0, 0.125, 0.0);
+    Summary s = read_summary(folder / run / "summary.json");
+    s.reference.push_back({"FFE", 0.4, {}, {}, ours, ours - 0.4});
+    write_summary(folder / run / "summary.json", s);
+  }
+  const auto all = [&](const Tolerances& t) { return compare_runs(folder / "a", folder / "b", t).differences; };
+  const auto free = all({{}, {{"fines", {0.03, 0.0}}}, {}});
+  EXPECT_TRUE(std::all_of(free.begin(), free.end(), [](const Difference& d) { return d.within(); }));
+  const auto strict = all({{}, {{"fines", {0.03, 0.0}}, {"reference.FFE.ours", {0.001, 0.0}}}, {}});
+  EXPECT_FALSE(std::all_of(strict.begin(), strict.end(), [](const Difference& d) { return d.within(); }));
 }
 
 TEST(Compare, ADifferenceIsNamedWithItsSizeAndItsMoment) {

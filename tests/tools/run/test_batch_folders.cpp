@@ -78,6 +78,24 @@ TEST_F(BatchStudy, APageThatAKillHasPreventedIsMadeLater) {
   EXPECT_TRUE(fs::exists(folder_ / "out/a/seed-1/report.html"));
 }
 
+// A disk that lost the end of one file costs that run, not the tables of all others.
+TEST_F(BatchStudy, ADamagedSummaryFailsAloneAndIsDoneAgain) {
+  file("study.toml", "base = \"case.toml\"\n[[case]]\nname = \"a\"\n[[case]]\nname = \"b\"\n");
+  ASSERT_EQ(batch(""), 0) << text("log.txt");
+  const std::string good = text("out/b/seed-1/summary.json");
+  file("out/a/seed-1/summary.json", good.substr(0, good.size() / 2));
+  EXPECT_EQ(shell(std::string(PUFFIN_BINARY_DIR) + "/puffin report out > /dev/null 2> report.txt"), 0)
+      << text("report.txt");
+  const output::StudyResults damaged = output::read_study_results(folder_ / "out");
+  EXPECT_EQ(damaged.cases[0].runs[0].state, "failed");
+  EXPECT_NE(damaged.cases[0].runs[0].message.find("summary.json"), std::string::npos);
+  EXPECT_TRUE(damaged.cases[1].runs[0].summary);
+  ASSERT_EQ(batch(""), 0) << text("log.txt");
+  EXPECT_TRUE(output::read_study_results(folder_ / "out").cases[0].runs[0].summary);
+  EXPECT_EQ(text("out/b/seed-1/summary.json"), good);
+  EXPECT_TRUE(fs::exists(folder_ / "out/a/seed-1.failed-1/summary.json"));
+}
+
 TEST_F(BatchStudy, LawsThatCannotBeReadFailTheirCaseAloneAlsoWhereRunsAreShared) {
   file("case.toml", fall);
   file("sound.toml", some_laws);

@@ -114,6 +114,9 @@ TEST_F(Run, UntilStopsEarlierAndChangesNothingElse) {
   EXPECT_DOUBLE_EQ(summary.stop_time.value(), 0.05e-3);
   EXPECT_DOUBLE_EQ(summary.case_stop_time.value(), 0.01);
   EXPECT_TRUE(output::cut_short(summary));
+  // The run's own file is that of the whole case too, and its page says where it was ended.
+  EXPECT_NE(text("short/report.html").find("--until 5e-05s"), std::string::npos);
+  EXPECT_EQ(text("short/case.toml"), text("long/case.toml"));
 }
 
 // As `puffin check`: on cells of 0.5 mm the inlet has too few of them for its jet.

@@ -224,10 +224,11 @@ std::string assumptions(const RunResults& run) {
 }
 
 std::string reproduce(const RunResults& run) {
+  const std::string until = run.summary.until ? " --until " + shortest(*run.summary.until) + "s" : "";
   return heading("To run this again") + "<p>With Puffin " + escaped(run.summary.version) +
          " and the file <code>case.toml</code> of this run, which holds every value and where it came "
          "from:</p>\n<pre>" +
-         "puffin run case.toml --threads " + std::to_string(run.summary.threads) + " --out again\n" +
+         "puffin run case.toml --threads " + std::to_string(run.summary.threads) + until + " --out again\n" +
          "puffin compare again " + escaped(run.folder.filename().string()) + "</pre>\n" +
          "<p class=soft>The numbers of this page are in summary.csv (and summary.json) and history.csv; the "
          "pictures are in images/.</p>\n";

@@ -19,6 +19,7 @@
 #include "tools/output/output_folder.hpp"
 #include "tools/output/report/html.hpp"
 #include "tools/output/summary.hpp"
+#include "tools/puffin/console.hpp"
 
 namespace puffin::tools {
 namespace {
@@ -209,6 +210,15 @@ void Book::move_aside(std::size_t job) const {
     fs::rename(run, aside);
     return;
   }
+}
+
+bool Book::set_damaged_aside(std::size_t job) const try {
+  if (fs::exists(run_folder(job) / "summary.json")) output::read_summary(run_folder(job) / "summary.json");
+  return false;
+} catch (const output::OutputError& e) {
+  log_warning(plan_.jobs[job].id + ": " + e.what() + "; its folder is moved aside and the run done again");
+  move_aside(job);
+  return true;
 }
 
 void Book::write() const {

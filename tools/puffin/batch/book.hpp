@@ -48,6 +48,9 @@ class Book {
   /// Moves what a failed run left behind to ID.failed-N.
   void move_aside(std::size_t job) const;
 
+  /// Moves aside what a run left whose summary.json cannot be read, and says so; false: there is no such thing.
+  bool set_damaged_aside(std::size_t job) const;
+
   /// study.json, whole or not at all: the cases, their runs, and the state of each.
   void write() const;
   /// status.json and index.html. state: running, finished, failed, stopped.

@@ -131,6 +131,7 @@ class Batch {
         std::ofstream(book_.log_file(n), std::ios::app) << plan_.jobs[n].problem << '\n';
         continue;
       }
+      if (book_.set_damaged_aside(n)) r = {};
       if (book_.finished(n)) {
         r.state = JobState::done;
         r.exit_code = ok;
