@@ -38,8 +38,13 @@ class Faces {
  public:
   Faces(const Surface& surface, const std::string& patch, const Vec3& down) : mesh_(surface.mesh), down_(down) {
     const int wanted = surface.patches.find(patch);
-    for (int t = 0; t < static_cast<int>(mesh_.triangles.size()); ++t)
-      if (surface.patches.of_triangle[t] == wanted) all_.push_back(t);
+    double area = 0.0;
+    for (int t = 0; t < static_cast<int>(mesh_.triangles.size()); ++t) {
+      if (surface.patches.of_triangle[t] != wanted) continue;
+      all_.push_back(t);
+      area += mesh_.area(t);
+    }
+    tolerance_ = 1e-3 * std::sqrt(area);
   }
   Vec3 outward(int t) const { return mesh_.area_vector(t).normalized(); }
   /// The lowest of those with a cosine above `cosine` to the weight; -1: none.
@@ -51,22 +56,20 @@ class Faces {
   }
   /// The level ones as deep as `lowest`.
   std::vector<int> as_deep_as(int lowest) const {
-    const double least = depth(lowest) - tolerance(lowest);
+    const double least = depth(lowest) - tolerance_;
     return those([&](int t) { return outward(t).dot(down_) > level && !(depth(t) < least); });
   }
   /// Those in the plane of `lowest`.
   std::vector<int> in_plane_of(int lowest) const {
     const Vec3 normal = outward(lowest);
     return those([&](int t) {
-      return outward(t).dot(normal) > level &&
-             std::abs(normal.dot(corners(t) - corners(lowest))) / 3.0 <= tolerance(lowest);
+      return outward(t).dot(normal) > level && std::abs(normal.dot(corners(t) - corners(lowest))) / 3.0 <= tolerance_;
     });
   }
 
  private:
   Vec3 corners(int t) const { return mesh_.corner(t, 0) + mesh_.corner(t, 1) + mesh_.corner(t, 2); }
   double depth(int t) const { return down_.dot(corners(t)) / 3.0; }
-  double tolerance(int t) const { return 1e-6 + 1e-3 * std::abs(depth(t)); }
   std::vector<int> those(const auto& wanted) const {
     std::vector<int> found;
     std::copy_if(all_.begin(), all_.end(), std::back_inserter(found), wanted);
@@ -76,6 +79,7 @@ class Faces {
   const lbm::geometry::TriangleMesh& mesh_;
   Vec3 down_;
   std::vector<int> all_;
+  double tolerance_ = 0.0;  // [m] of depths that count as one: of the patch's size, wherever its origin lies
 };
 
 /// Distance of a point from the nearest edge that only one of the triangles has.
