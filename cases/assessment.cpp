@@ -133,16 +133,15 @@ Assessment assess(const Case& given, const Surface& s) {
   Assessment a;
   a.volume = s.volume;
   a.area = s.area;
-  const AreaOf area_of = [&](const std::string& patch) { return s.area_of(patch); };
+  const AreaOf area_of = inlet_areas(c.air, s);
   for (const Boundary& b : c.air.boundaries) {
     if (b.type != BoundaryType::velocity_inlet) continue;
     Air alone = c.air;
     alone.boundaries = {b};
-    const double area = s.area_of(b.patch), speed = largest_mean_speed(alone, c.stop.time, area_of);
+    profile_of(b, s, inlet_of(c, s, b));  // refuses a profile that does not fit the opening
+    const double area = area_of(b.patch), speed = largest_mean_speed(alone, c.stop.time, area_of);
     const double diameter = 4.0 * area / perimeter_of(s, b.patch);
     a.inlets.push_back({b.patch, area, speed, diameter, reynolds(c.air, speed, diameter)});
-    const int patch = s.patches.find(b.patch);
-    profile_of(b, s, patch, opening_of(c, s, patch));  // refuses a profile that does not fit the opening
   }
   if (c.air.model == AirModel::lbm) {
     require_room(c, s, std::numeric_limits<double>::infinity());

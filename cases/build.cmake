@@ -10,6 +10,8 @@ set(PUFFIN_BUILD_SOURCES
   compressibility.cpp
   fill.cpp
   initial_air.cpp
+  frozen_ways.cpp
+  inlet.cpp
   inlet_profile.cpp
   opening.cpp
   point_field.cpp

@@ -1,8 +1,6 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <functional>
-#include <map>
 #include <stdexcept>
 
 #include "cases/assessment.hpp"
@@ -11,13 +9,14 @@
 #include "cases/check_boundaries.hpp"
 #include "cases/compressibility.hpp"
 #include "cases/derived.hpp"
+#include "cases/frozen_ways.hpp"
 #include "cases/initial_air.hpp"
+#include "cases/inlet.hpp"
 #include "cases/opening.hpp"
 #include "cases/point_field.hpp"
 #include "cases/section_speed.hpp"
 #include "cases/table_file.hpp"
 #include "cases/undriven_speed.hpp"
-#include "cases/untagged_openings.hpp"
 #include "lbm/geometry/voxel_errors.hpp"
 #include "lbm/markers.hpp"
 
@@ -138,53 +137,6 @@ void build_lattice(const Case& c, const LatticeNumbers& numbers, Simulation& s) 
   s.state.spreader = coupling::Spreader(s.state.air->rows.slots());
 }
 
-/// The case with a boundary for each patch that has none and through which a frozen field passes, as carriers do
-/// (is_opening in build_carriers.cpp): closed, the cells beside them would be emptied or filled by it.
-Case with_open_patches(Case c, const Surface& surface) {
-  if (c.carriers && c.carriers->outside == Outside::bounce) return c;
-  for (const std::string& name : surface.patches.names) {
-    if (!is_open_unsaid(c, name)) continue;
-    Boundary open;
-    open.patch = name;
-    open.type = BoundaryType::pressure_outlet;
-    c.air.boundaries.push_back(open);
-  }
-  return c;
-}
-
-/// A text for each patch without a boundary that lets air pass, through which the frozen field blows by more than a
-/// twentieth of its area times the largest speed: fines that come there end the run. (A field between points may cross
-/// a wall by a little.)
-std::vector<std::string> closed_ways(const Case& c, const Surface& surface, double speed,
-                                     const std::function<Vec3(const Vec3&)>& field) {
-  constexpr double harmless = 0.05;
-  std::vector<double> passes(surface.patches.names.size(), 0.0), area = passes;
-  for (int t = 0; t < static_cast<int>(surface.mesh.triangles.size()); ++t) {
-    const Vec3 outwards = 0.5 * surface.mesh.area_vector(t);
-    const Vec3 middle = (surface.mesh.corner(t, 0) + surface.mesh.corner(t, 1) + surface.mesh.corner(t, 2)) / 3.0;
-    passes[surface.patches.of_triangle[t]] += std::abs(outwards.dot(field(middle)));
-    area[surface.patches.of_triangle[t]] += outwards.norm();
-  }
-  std::vector<std::string> texts;
-  for (std::size_t p = 0; p < passes.size(); ++p) {
-    const std::string& name = surface.patches.names[p];
-    const bool opens = std::any_of(c.air.boundaries.begin(), c.air.boundaries.end(), [&](const Boundary& b) {
-      return (b.patch == name || b.with == name) && b.type != BoundaryType::wall &&
-             b.type != BoundaryType::moving_wall && b.type != BoundaryType::slip;
-    });
-    if (opens || !(passes[p] > harmless * speed * area[p])) continue;
-    char text[320];
-    std::snprintf(
-        text, sizeof text,
-        "air.field blows through the patch '%s' (%.3g m/s, mean), which is closed: where fines come there the "
-        "run ends; give it an [[air.boundary]]: \"periodic\" in a pair, \"pressure-outlet\" or "
-        "\"velocity-inlet\"",
-        name.c_str(), passes[p] / area[p]);
-    texts.push_back(text);
-  }
-  return texts;
-}
-
 /// Cells in which fines are carried by a field that does not change; nothing is collided or streamed there.
 void build_frozen_cells(Simulation& s) {
   const Case& c = s.description;
@@ -255,7 +207,7 @@ lbm::Law law_of(Collision collision) {
 void build_air(Simulation& s) {
   const Case& c = s.description;
   s.models.air = {c.air.density, c.air.viscosity};
-  const AreaOf area_of = [&](const std::string& patch) { return s.surface.area_of(patch); };
+  const AreaOf area_of = inlet_areas(c.air, s.surface);
   s.reference_speed = reference_speed(c, area_of);
   auto& rule = s.models.time_step;
   if (c.air.model == AirModel::frozen) s.models.frozen_air = from_file(c, "air.field", [&] { return frozen_air(s); });
@@ -288,12 +240,7 @@ void build_air(Simulation& s) {
   rule.reference_speed = largest_followed_speed(c.air, c.stop.time, area_of);
   rule.follow =
       c.numerics.time_step == cases::TimeStepRule::follow_ramp && largest_mean_speed(c.air, c.stop.time, area_of) > 0.0;
-  // Areas are sums over thousands of triangles: find them once.
-  std::map<std::string, double> areas;
-  for (const Boundary& b : c.air.boundaries) areas[b.patch] = s.surface.area_of(b.patch);
-  rule.speed = [air = c.air, areas](double t) {
-    return followed_speed(air, t, [&](const std::string& patch) { return areas.at(patch); });
-  };
+  rule.speed = [air = c.air, area_of](double t) { return followed_speed(air, t, area_of); };
   s.models.body_force = from_file(c, "air.body_force", [&] { return body_force(c); });
   build_lattice(c, numbers, s);
   s.state.scale.dt = rule.first(0.0);

@@ -21,17 +21,15 @@ double fastest_wall(const Air& air) {
   return speed;
 }
 
-void describe_inlet(const Case& c, const Surface& surface, int patch, const Boundary& b, lbm::Boundary& lattice,
+void describe_inlet(const Case& c, const Surface& surface, const Boundary& b, lbm::Boundary& lattice,
                     coupling::PatchDrive& drive) {
-  const Opening opening = opening_of(c, surface, patch);
+  const Inlet inlet = from_file(c, "air.boundary", [&] { return inlet_of(c, surface, b); });
   lattice.kind = lbm::BoundaryKind::velocity_inlet;
-  lattice.profile = from_file(c, "air.boundary", [&] { return profile_of(b, surface, patch, opening); }).shape;
+  lattice.profile = from_file(c, "air.boundary", [&] { return profile_of(b, surface, inlet); }).shape;
+  lattice.parts = inlet.parts;
   lattice.exact_flow = b.profile != Profile::plug;
-  // A velocity vector crosses the patch with its normal part alone.
-  double share = 1.0;
-  if (const auto* v = std::get_if<Velocity>(&b.flow)) share = std::abs(v->value.normalized().dot(opening.normal));
-  drive.area = opening.area;
-  drive.speed = [b, area = opening.area, share](double t) { return mean_speed(b, t, area) * share; };
+  drive.area = inlet.area;
+  drive.speed = [b, area = inlet.area, across = inlet.across](double t) { return mean_speed(b, t, area) * across; };
   drive.is_inlet = true;
 }
 
@@ -52,7 +50,7 @@ void describe_patches(const Case& c, const Surface& surface, std::vector<lbm::Bo
     } else if (b != nullptr) {
       switch (b->type) {
         case BoundaryType::velocity_inlet:
-          describe_inlet(c, surface, static_cast<int>(p), *b, lattice, drive);
+          describe_inlet(c, surface, *b, lattice, drive);
           break;
         case BoundaryType::pressure_outlet:
           lattice.kind = lbm::BoundaryKind::pressure_outlet;
@@ -122,9 +120,13 @@ void build_turbulence(Simulation& s) {
     const Boundary* b = boundary_of(s.description.air, s.models.patches[p].patch);
     if (b == nullptr || b->type != BoundaryType::velocity_inlet || !(b->turbulence > 0.0)) continue;
     // Eddies of a developed duct: integral length 0.3 of the width (Hinze, Turbulence (1975), section 7-13).
-    const double length = 0.3 * std::sqrt(s.models.patches[p].area) / s.dx;
-    s.models.turbulence.push_back(lbm::make_inlet_turbulence(*s.state.air, static_cast<int>(p), b->turbulence,
-                                                             std::max(length, 1.0), s.description.numerics.seed + p));
+    const auto& parts = s.state.air->boundaries[p].parts;  // each with eddies of its own
+    for (std::size_t part = 0; part < (parts ? parts->area.size() : 1); ++part) {
+      const double length = 0.3 * std::sqrt(parts ? parts->area[part] : s.models.patches[p].area) / s.dx;
+      const std::uint64_t seed = s.description.numerics.seed + p + part * s.models.patches.size();
+      s.models.turbulence.push_back(lbm::make_inlet_turbulence(*s.state.air, static_cast<int>(p), b->turbulence,
+                                                               std::max(length, 1.0), seed, static_cast<int>(part)));
+    }
   }
 }
 

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "cases/derived.hpp"
+#include "cases/inlet.hpp"
 #include "cases/opening.hpp"
 #include "cases/spelling.hpp"
 #include "cases/units.hpp"
@@ -129,13 +130,18 @@ class Checks {
 
   void inlet(const std::string& key, const Boundary& b) {
     const auto* v = std::get_if<Velocity>(&b.flow);
-    if (v == nullptr) return;
-    const Face face = face_of(b.patch);
-    if (v->value.dot(face.normal) > -1e-3 * v->value.norm())
-      say(key + ".velocity", "the vector does not point into the fluid; the inward normal of '" + b.patch + "' is [" +
-                                 format_quantity(-face.normal[0], unit::number) + ", " +
-                                 format_quantity(-face.normal[1], unit::number) + ", " +
-                                 format_quantity(-face.normal[2], unit::number) + "]");
+    const auto parts = inlet_parts(surface_, b);
+    for (std::size_t p = 0; p < parts.size(); ++p) {
+      const Vec3 inward = -parts[p].normal;
+      if (inward.isZero()) say(key + ".patch", no_direction(part_name(b, parts, p)));
+      if (v == nullptr || inward.isZero() || v->value.dot(inward) >= 1e-3 * v->value.norm()) continue;
+      say(key + ".velocity", "the vector does not point into the fluid; the inward normal of " +
+                                 (parts.size() == 1 ? "'" + b.patch + "'" : part_name(b, parts, p)) + " is [" +
+                                 format_quantity(inward[0], unit::number) + ", " +
+                                 format_quantity(inward[1], unit::number) + ", " +
+                                 format_quantity(inward[2], unit::number) + "]" +
+                                 (parts.size() == 1 ? "" : "; give each part a patch of its own, or a flow_rate"));
+    }
   }
 
   /// Spheres of one size fill at most pi / sqrt(18) of any space (Kepler; Hales, Ann. Math. 162, 1065 (2005)).
@@ -153,8 +159,8 @@ class Checks {
   /// whose time step, given in seconds, lets the air cross more of a cell than numerics.lattice_speed may.
   void duration() {
     constexpr double most_steps = 1e11, least_steps = 1e-3;  // 10^11: three years at 1,000 steps a second
-    const AreaOf area_of = [&](const std::string& patch) { return surface_.area_of(patch); };
     if (c_.air.model != AirModel::lbm || surface_.volume <= 0.0 || !problems_.empty()) return;
+    const AreaOf area_of = inlet_areas(c_.air, surface_);
     const double speed = reference_speed(c_, area_of);
     if (!(speed > 0.0)) return;
     const LatticeNumbers n = lattice_numbers(c_, cell_size(c_.numerics, surface_.volume), speed, area_of);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cases/derived.hpp"
+#include "cases/inlet.hpp"
 #include "cases/opening.hpp"
 
 namespace puffin::cases {
@@ -54,7 +55,7 @@ double edge_beside_walls(const Surface& s, int patch, const std::vector<char>& r
 double laminar_friction(const Case& c, const Surface& s) {
   const std::vector<char> rests = resting_walls(c, s);
   const double walls = area_of_walls(s, rests);
-  const AreaOf area_of = [&](const std::string& patch) { return s.area_of(patch); };
+  const AreaOf area_of = inlet_areas(c.air, s);
   double most = 0.0;
   for (const Boundary& b : c.air.boundaries) {
     const int patch = s.patches.find(b.patch);

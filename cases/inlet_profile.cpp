@@ -52,7 +52,7 @@ std::function<double(const Vec3&)> shape_of(const Boundary& b, const Opening& o)
                           std::string(b.profile == Profile::pipe   ? "pipe"
                                       : b.profile == Profile::duct ? "duct"
                                                                    : "parabolic") +
-                          "\" needs a " + form + ": the patch '" + b.patch + "' fills only " +
+                          "\" needs a " + form + ": " + o.name + " fills only " +
                           std::to_string(std::lround(100.0 * part)) + " % of the smallest around it; give " +
                           "profile = { file = ... } or \"plug\"");
   };
@@ -102,7 +102,7 @@ double duct_series(double y, double z, double a, double b) {
   return std::max(0.0, 1.0 - (y / a) * (y / a) - 32.0 / (pi * pi * pi) * sum);
 }
 
-InletProfile profile_of(const Boundary& b, const Surface& surface, int patch, const Opening& o) {
+InletProfile profile_of(const Boundary& b, const Surface& surface, const Opening& o) {
   const double finest = o.half[1] / 8.0;
   InletProfile profile;
   std::function<Vec3(const Vec3&)> given;
@@ -118,23 +118,34 @@ InletProfile profile_of(const Boundary& b, const Surface& surface, int patch, co
     given = [direction, f = shape_of(b, o)](const Vec3& x) -> Vec3 { return f(x) * direction; };
   }
   const double mean =
-      integral_over(surface, patch, finest, [&](const Vec3& x) { return -given(x).dot(o.normal); }) / o.area;
+      integral_over(surface, o, finest, [&](const Vec3& x) { return -given(x).dot(o.normal); }) / o.area;
   if (!(mean > 0.0))
-    throw std::invalid_argument(b.profile_file + ": the mean flow of the profile over the patch '" + b.patch +
-                                "' does not point into the fluid");
+    throw std::invalid_argument(b.profile_file + ": the mean flow of the profile over " + o.name +
+                                " does not point into the fluid");
   if (b.profile == Profile::file) profile.mean = mean;
   profile.shape = [given, mean](const Vec3& x) -> Vec3 { return given(x) / mean; };
   return profile;
+}
+
+InletProfile profile_of(const Boundary& b, const Surface& surface, const Inlet& inlet) {
+  if (!inlet.parts) return profile_of(b, surface, inlet.openings.front());
+  InletProfile all;
+  std::vector<std::function<Vec3(const Vec3&)>> shapes;
+  for (const Opening& o : inlet.openings) shapes.push_back(profile_of(b, surface, o).shape);
+  all.shape = [shapes, parts = inlet.parts](const Vec3& x) -> Vec3 {
+    const int p = parts->nearest(x);
+    return parts->share[p] * shapes[p](x);
+  };
+  return all;
 }
 
 void complete_file_profiles(const Surface& surface, Case& c) {
   for (std::size_t i = 0; i < c.air.boundaries.size(); ++i) {
     Boundary& b = c.air.boundaries[i];
     if (b.type != BoundaryType::velocity_inlet || b.profile != Profile::file || b.flow.index() != 0) continue;
-    const int patch = surface.patches.find(b.patch);
-    if (patch < 0) continue;
+    if (surface.patches.find(b.patch) < 0) continue;
     b.flow = MeanSpeed{from_file(c, "air.boundary[" + std::to_string(i) + "].profile", [&] {
-                         return profile_of(b, surface, patch, opening_of(c, surface, patch));
+                         return profile_of(b, surface, inlet_of(c, surface, b));
                        }).mean};
   }
 }

@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "cases/opening.hpp"
+#include "cases/inlet.hpp"
 
 namespace puffin::cases {
 
@@ -15,7 +15,8 @@ struct InletProfile {
   double mean = 0.0;
 };
 
-/// The profile of a velocity inlet on its patch. Every shape is scaled by its integral over the patch's own triangles.
+/// The profile of a velocity inlet on one opening. Every shape is scaled by its integral over the patch's own
+/// triangles.
 ///   plug       1
 ///   duct       exact laminar flow in the rectangle of the patch (White, Viscous Fluid Flow, eq. 3-48):
 ///              1 - (y/a)^2 - (32/pi^3) sum_{n odd} (-1)^((n-1)/2)/n^3 cosh(n pi z/2a)/cosh(n pi b/2a) cos(n pi y/2a),
@@ -28,7 +29,9 @@ struct InletProfile {
 /// A velocity vector in the case turns the shapes but the file's into its direction.
 /// Throws GeometryError if the patch has not the form that the profile needs (rectangle: 98 % of its smallest
 /// rectangle; pipe: 90 % of its circle), std::invalid_argument for a file without net inflow.
-InletProfile profile_of(const Boundary& b, const Surface& surface, int patch, const Opening& opening);
+InletProfile profile_of(const Boundary& b, const Surface& surface, const Opening& opening);
+/// That of all openings of an inlet; at a point that of the nearest.
+InletProfile profile_of(const Boundary& b, const Surface& surface, const Inlet& inlet);
 
 /// Gives inlets that have a profile from a file and no flow the mean speed of the file.
 void complete_file_profiles(const Surface& surface, Case& c);

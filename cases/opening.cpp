@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <set>
+#include <utility>
 
 namespace puffin::cases {
 
@@ -65,14 +66,14 @@ bool in_order(const Vec3& first, double half_first, const Vec3& second, double h
   return true;
 }
 
-void fit_rectangle(const Surface& surface, int patch, Opening& o) {
+void fit_rectangle(const Surface& surface, Opening& o) {
   int axis = 0;
   o.normal.cwiseAbs().minCoeff(&axis);
   const Vec3 e1 = o.normal.cross(Vec3::Unit(axis)).normalized(), e2 = o.normal.cross(e1);
   std::vector<Vec2> points;
-  for (std::size_t t = 0; t < surface.mesh.triangles.size(); ++t)
-    for (int k = 0; k < 3 && surface.patches.of_triangle[t] == patch; ++k) {
-      const Vec3 p = surface.mesh.corner(static_cast<int>(t), k) - o.centroid;
+  for (const int t : o.triangles)
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 p = surface.mesh.corner(t, k) - o.centroid;
       points.emplace_back(p.dot(e1), p.dot(e2));
       o.radius = std::max(o.radius, points.back().norm());
     }
@@ -93,17 +94,17 @@ bool sticks(const Case& c, const std::string& patch) {
   return b == nullptr || b->type == BoundaryType::wall || b->type == BoundaryType::moving_wall;
 }
 
-void find_walls(const Case& c, const Surface& surface, int patch, Opening& o) {
+void find_walls(const Case& c, const Surface& surface, Opening& o) {
   const auto& mesh = surface.mesh;
-  std::map<std::pair<int, int>, int> border;  // directed edge of the patch -> uses
+  std::set<std::pair<int, int>> border;  // directed edges of the opening
+  for (const int t : o.triangles)
+    for (int k = 0; k < 3; ++k) border.insert({mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3]});
   const auto each_edge = [&](auto&& body) {
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
       for (int k = 0; k < 3; ++k)
         body(surface.patches.of_triangle[t], mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3]);
   };
-  each_edge([&](int p, int a, int b) {
-    if (p == patch) border[{a, b}] = 1;
-  });
+  const int patch = surface.patches.of_triangle[o.triangles.front()];
   double length[2][2][2] = {};  // [side pair][end][sticks]
   each_edge([&](int p, int a, int b) {
     if (p == patch || border.count({b, a}) == 0) return;
@@ -164,33 +165,43 @@ bool is_periodic(const Air& air, const std::string& patch) {
   });
 }
 
-Opening opening_of(const Case& c, const Surface& surface, int patch) {
+std::string no_direction(const std::string& name) {
+  return name +
+         " has no direction: its triangles, which hang together, look against each other; give each face a patch of "
+         "its "
+         "own ([[geometry.patch]] select = \"near:[x, y, z]\")";
+}
+
+Opening opening_of(const Case& c, const Surface& surface, const lbm::geometry::PatchPart& part,
+                   const std::string& name) {
+  if (!(part.surface > 0.0)) throw lbm::geometry::GeometryError(name + " has no area");
+  if (part.normal.isZero()) throw lbm::geometry::GeometryError(no_direction(name));
   Opening o;
-  for (int t = 0; t < static_cast<int>(surface.mesh.triangles.size()); ++t) {
-    if (surface.patches.of_triangle[t] != patch) continue;
-    const double area = surface.mesh.area(t);
-    o.area += area;
-    o.normal += surface.mesh.area_vector(t);
-    o.centroid += area / 3.0 * (surface.mesh.corner(t, 0) + surface.mesh.corner(t, 1) + surface.mesh.corner(t, 2));
-  }
-  if (!(o.area > 0.0) || !(o.normal.norm() > 1e-9 * o.area))
-    throw lbm::geometry::GeometryError("the patch '" + surface.patches.names[patch] + "' has no area or no direction");
-  o.centroid /= o.area;
-  // Through a patch that is not plane, half a pipe's surface or two faces, air crosses its projection.
-  if (const double across = 0.5 * o.normal.norm(); across < (1.0 - 1e-6) * o.area) o.area = across;
-  o.normal.normalize();
-  fit_rectangle(surface, patch, o);
-  find_walls(c, surface, patch, o);
+  o.name = name;
+  o.triangles = part.triangles;
+  o.normal = part.normal;
+  o.centroid = part.centroid;
+  o.area = part.area;
+  fit_rectangle(surface, o);
+  find_walls(c, surface, o);
   return o;
 }
 
-double integral_over(const Surface& surface, int patch, double finest, const std::function<double(const Vec3&)>& f) {
+Opening opening_of(const Case& c, const Surface& surface, int patch) {
+  std::vector<int> triangles;
+  for (int t = 0; t < static_cast<int>(surface.mesh.triangles.size()); ++t)
+    if (surface.patches.of_triangle[t] == patch) triangles.push_back(t);
+  return opening_of(c, surface, lbm::geometry::part_of(surface.mesh, std::move(triangles)),
+                    "the patch '" + surface.patches.names[patch] + "'");
+}
+
+double integral_over(const Surface& surface, const Opening& opening, double finest,
+                     const std::function<double(const Vec3&)>& f) {
   constexpr int most_halvings = 14;
   double sum = 0.0;
-  for (int t = 0; t < static_cast<int>(surface.mesh.triangles.size()); ++t)
-    if (surface.patches.of_triangle[t] == patch)
-      sum += integrate_finely({surface.mesh.corner(t, 0), surface.mesh.corner(t, 1), surface.mesh.corner(t, 2)}, finest,
-                              most_halvings, f);
+  for (const int t : opening.triangles)
+    sum += integrate_finely({surface.mesh.corner(t, 0), surface.mesh.corner(t, 1), surface.mesh.corner(t, 2)}, finest,
+                            most_halvings, f);
   return sum;
 }
 

@@ -7,6 +7,7 @@
 
 #include "cases/assessment.hpp"
 #include "cases/derived.hpp"
+#include "cases/inlet.hpp"
 
 namespace puffin::cases {
 namespace {
@@ -35,7 +36,7 @@ class Ends {
   Ends(const Case& c, const Surface& s, const geometry::TriangleTree& tree, double dx) : s_(s), tree_(tree), dx_(dx) {
     speed_.assign(s.patches.names.size(), 0.0);
     outlet_.assign(s.patches.names.size(), 0);
-    const AreaOf area_of = [&](const std::string& patch) { return s.area_of(patch); };
+    const AreaOf area_of = inlet_areas(c.air, s);
     for (const Boundary& b : c.air.boundaries) {
       const int patch = s.patches.find(b.patch);
       if (patch < 0) continue;

@@ -53,7 +53,8 @@ struct Air {
   Rows rows;
   Links links;
   std::vector<Boundary> boundaries;
-  std::vector<geometry::Vec3> normal;  // per boundary: mean outward normal (openings)
+  std::vector<geometry::Vec3>
+      normal;  // per boundary: mean outward normal (openings); zero if its faces look against each other
   AirOptions options;
   std::variant<Populations<float>, Populations<double>> populations;
   Moments moments;
@@ -72,6 +73,11 @@ struct Air {
   std::int64_t limited = 0;   // cells x steps in which the positivity limiter acted
   std::int64_t backflow = 0;  // outlet cells x steps with the back-flow cut
 
+  /// Outward normal of the face that the link crosses.
+  const geometry::Vec3& outward(const OpeningLink& link) const {
+    const auto& parts = boundaries[link.patch].parts;
+    return parts ? parts->normal[link.part] : normal[link.patch];
+  }
   Parity parity() const;  // kind of the next collision
   bool is_fluid(std::ptrdiff_t slot) const { return fluid.empty() || fluid[slot] != 0; }
 };

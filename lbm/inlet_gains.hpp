@@ -9,8 +9,7 @@
 // It brings no mass through a whole face of a cell, but momentum along it: without it an oblique inlet's velocity along
 // the opening is too small by 3 u_n^2 of itself, 1.8 % at 0.08 (tests/lbm/test_oblique_inlet.cpp).
 
-#include "lbm/links.hpp"
-#include "lbm/rows.hpp"
+#include "lbm/geometry/triangle_mesh.hpp"
 
 namespace puffin::lbm {
 
@@ -19,16 +18,5 @@ double gain_of(int direction, const geometry::Vec3& u);
 
 /// Its part of third order in u.
 double cubic_gain_of(int direction, const geometry::Vec3& u);
-
-/// A link at the edge of an inlet, taken by a wall that slides, as its own and as the inlet's: build_links.
-struct InletEdge {
-  std::ptrdiff_t slot = 0;
-  std::int16_t face = 0, wall = 0, inlet = 0;
-  double own = 0.0, carried = 0.0;
-};
-
-/// Brings the links of each inlet to its flow, and measures the openings on their cells. Throws GeometryError for an
-/// opening without cells and for a profile that does not point into the fluid.
-void scale_inlets(const Rows& rows, const LinkGeometry& surface, const std::vector<InletEdge>& edges, Links& links);
 
 }  // namespace puffin::lbm

@@ -56,20 +56,21 @@ std::array<Vec3, 3> random_frame(Uniform& random) {
 
 }  // namespace
 
-InletTurbulence make_inlet_turbulence(const Air& air, int boundary, double intensity, double length,
-                                      std::uint64_t seed) {
+InletTurbulence make_inlet_turbulence(const Air& air, int boundary, double intensity, double length, std::uint64_t seed,
+                                      int part) {
   if (!(intensity >= 0.0) || !(length > 0.0))
     throw std::invalid_argument("inlet turbulence needs an intensity >= 0 and a length > 0");
   InletTurbulence t;
   t.boundary = boundary;
   for (std::size_t k = 0; k < air.links.inlets.size(); ++k)
-    if (air.links.inlets[k].patch == boundary) t.links.push_back(static_cast<std::int32_t>(k));
+    if (air.links.inlets[k].patch == boundary && air.links.inlets[k].part == part)
+      t.links.push_back(static_cast<std::int32_t>(k));
   constexpr int modes = 3 * triples;
   t.cosine.assign(t.links.size() * modes, 0.0F);
   t.sine.assign(t.links.size() * modes, 0.0F);
   Uniform random(seed);
   const auto numbers = wave_numbers(length, triples);
-  const Vec3 flow = -air.normal[boundary];
+  const Vec3 flow = t.links.empty() ? Vec3(-air.normal[boundary]) : Vec3(-air.outward(air.links.inlets[t.links[0]]));
   double base = 0.0;
   for (const auto k : t.links) base += air.links.inlets[k].gain;
   std::array<Vec3, 3> frame;
@@ -80,19 +81,19 @@ InletTurbulence make_inlet_turbulence(const Air& air, int boundary, double inten
     t.phase.push_back(2.0 * std::numbers::pi * random());
     const double amplitude = intensity * std::sqrt(6.0 / modes);
     std::array<double, 2> net{0.0, 0.0};
-    std::vector<std::array<double, 2>> part(t.links.size());
+    std::vector<std::array<double, 2>> pushes(t.links.size());
     for (std::size_t l = 0; l < t.links.size(); ++l) {
       const OpeningLink& link = air.links.inlets[t.links[l]];
       const auto& c = d3q19::velocity[link.direction];
       const double push = -6.0 * d3q19::weight[link.direction] * amplitude * sigma.dot(Vec3(c[0], c[1], c[2]));
       const double angle = wave.dot(air.rows.centre(link.slot) - air.rows.origin()) / air.rows.dx();
-      part[l] = {push * std::cos(angle), push * std::sin(angle)};
-      for (int h = 0; h < 2; ++h) net[h] += part[l][h];
+      pushes[l] = {push * std::cos(angle), push * std::sin(angle)};
+      for (int h = 0; h < 2; ++h) net[h] += pushes[l][h];
     }
     for (std::size_t l = 0; l < t.links.size(); ++l) {
       const double share = air.links.inlets[t.links[l]].gain / base;
-      t.cosine[l * modes + n] = static_cast<float>(part[l][0] - share * net[0]);
-      t.sine[l * modes + n] = static_cast<float>(part[l][1] - share * net[1]);
+      t.cosine[l * modes + n] = static_cast<float>(pushes[l][0] - share * net[0]);
+      t.sine[l * modes + n] = static_cast<float>(pushes[l][1] - share * net[1]);
     }
   }
   return t;

@@ -23,10 +23,11 @@ struct InletTurbulence {
   std::vector<double> along, phase;  // per mode: wave number along the mean flow [1/cell], phase
 };
 
-/// Modes on the links of one inlet. intensity: rms of a component over the mean speed; length: integral length scale
-/// [cells]; equal seeds give equal turbulence. Throws std::invalid_argument unless intensity >= 0 and length > 0.
-InletTurbulence make_inlet_turbulence(const Air& air, int boundary, double intensity, double length,
-                                      std::uint64_t seed);
+/// Modes on the links of one inlet, or of one face of several. intensity: rms of a component over the mean speed;
+/// length: integral length scale [cells]; equal seeds give equal turbulence. Throws std::invalid_argument unless
+/// intensity >= 0 and length > 0.
+InletTurbulence make_inlet_turbulence(const Air& air, int boundary, double intensity, double length, std::uint64_t seed,
+                                      int part = 0);
 
 /// Adds the fluctuations to `gain` (one value an inlet link) after the mean flow has gone `way` cells, at a mean speed
 /// of `speed` [lattice units].

@@ -14,6 +14,7 @@
 #include "lbm/inlet_gains.hpp"
 #include "lbm/link_schedule.hpp"
 #include "lbm/moving_walls.hpp"
+#include "lbm/opening_flow.hpp"
 #include "lbm/populations.hpp"
 #include "lbm/slip.hpp"
 #include "lbm/wall_sides.hpp"
@@ -55,6 +56,10 @@ std::vector<Links::Image> in_stretches(std::vector<Links::Image> images) {
   return ends;
 }
 
+std::int16_t part_at(const Boundary& boundary, const Vec3& x) {
+  return boundary.parts ? static_cast<std::int16_t>(boundary.parts->nearest(x)) : std::int16_t{0};
+}
+
 }  // namespace
 
 Links build_links(const Rows& rows, const LinkGeometry& surface, WallScheme scheme, const CellKinds& kinds) {
@@ -90,11 +95,7 @@ Links build_links(const Rows& rows, const LinkGeometry& surface, WallScheme sche
   // edge). A wall: the link is the wall's, as those of the cells before it. Along a moving wall it gives to one side of
   // a cell what it takes from the other, and the cell in the corner of an outlet lost u/6 a step; flow between plates,
   // driven by pressures, was 1 to 2 % too fast.
-  // Such a link at the edge of an inlet, taken by a wall that slides: the wall carries air along in the links that it
-  // cuts, from one end to the other, and the inlet's other links must bring so much less. Both for a unit speed of
-  // their own, the wall's and the inlet's: what the link would have brought goes to the inlet's face of the cell, less
-  // what the wall carries.
-  std::vector<InletEdge> edges;
+  std::vector<InletEdge> edges;  // such links at an inlet, taken by a wall that slides
   const auto settle_edges = [&](std::ptrdiff_t slot, std::vector<Cut>& cuts) {
     const auto cut_along = [&](int axis, int sign) -> const Cut* {
       for (const Cut& cut : cuts)
@@ -123,8 +124,8 @@ Links build_links(const Rows& rows, const LinkGeometry& surface, WallScheme sche
             kind_of(*beside) == BoundaryKind::velocity_inlet) {
           const Vec3 direction(c[0], c[1], c[2]), at = rows.centre(slot) + 0.5 * rows.dx() * direction;
           const auto brings = [&](int patch) { return gain_of(cut.direction, surface.boundaries[patch].profile(at)); };
-          edges.push_back(
-              {slot, beside->direction, face->patch, beside->patch, brings(beside->patch), brings(face->patch)});
+          edges.push_back({slot, beside->direction, face->patch, beside->patch,
+                           part_at(surface.boundaries[beside->patch], at), brings(beside->patch), brings(face->patch)});
         }
       }
     }
@@ -156,9 +157,10 @@ Links build_links(const Rows& rows, const LinkGeometry& surface, WallScheme sche
           if (boundary.kind == BoundaryKind::slip) {
             links.slip.push_back({slot, slot, link.run, link.run, cut.direction, cut.direction, cut.patch});
           } else if (boundary.kind == BoundaryKind::velocity_inlet) {
-            const Vec3 u = boundary.profile(centre + static_cast<double>(cut.q) * dx * direction);
+            const Vec3 at = centre + static_cast<double>(cut.q) * dx * direction, u = boundary.profile(at);
             link.gain = gain_of(cut.direction, u);
             link.cubic = cubic_gain_of(cut.direction, u);
+            link.part = part_at(boundary, at);
             links.inlets.push_back(link);
           } else {
             links.outlets.push_back(link);
@@ -220,7 +222,8 @@ Links build_links(const Rows& rows, const LinkGeometry& surface, WallScheme sche
 
   if (any_moving) carry_along_walls(rows, surface, links);
 
-  scale_inlets(rows, surface, edges, links);
+  set_inlet_flow(rows, surface, edges, links);
+
   join_slip_links(rows, links.slip);
   links.schedule = std::make_shared<const LinkSchedule>(schedule_links(rows, links, kinds.fluid));
 

@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "lbm/geometry/patch_parts.hpp"
 #include "lbm/geometry/triangle_tree.hpp"
 #include "lbm/kernel.hpp"
 #include "lbm/rows.hpp"
@@ -35,6 +36,15 @@ struct CellKinds {
   std::shared_ptr<const WallSides> sides;
 };
 
+/// The faces of an inlet that has several which do not touch. Each is an opening of its own with one mean speed for
+/// all.
+struct InletParts {
+  geometry::NearestPart nearest;
+  std::vector<geometry::Vec3> normal;  // out of the fluid
+  std::vector<double> area;            // [m^2] that air crosses
+  std::vector<double> share;           // mean normal part of the profile
+};
+
 /// What happens at one patch of the surface.
 struct Boundary {
   std::string patch;
@@ -43,9 +53,10 @@ struct Boundary {
   /// Velocity inlet: profile at a point relative to the section mean, pointing into the domain.
   std::function<geometry::Vec3(const geometry::Vec3&)> profile;
   /// Velocity inlet: the flow is the mean speed times the area of the patch (true), or times the area of its cells: see
-  /// build_links.
+  /// opening_flow.hpp.
   bool exact_flow = false;
   bool slides = false;  // moving wall: with one velocity from end to end, so that it carries air along
+  std::shared_ptr<const InletParts> parts{};  // velocity inlet of several faces; null: of one
 };
 
 /// One link cut by an opening of the domain.
@@ -58,6 +69,7 @@ struct OpeningLink {
   double cubic = 0.0;      // and for its cube, by laws with odd moments of third order: inlet_gains.hpp
   double wall_gain = 0.0;  // for a unit speed of the sliding wall at the edge: less what that carries along
   std::int16_t wall = -1;  // the patch of that wall
+  std::int16_t part = 0;   // of an inlet of several faces
 };
 
 /// One link cut by a slip wall: what comes back along it is what left `source` in `source_direction`.
@@ -102,7 +114,7 @@ struct Links {
   };
   std::vector<Image> images;         // in pairs, first and last of a stretch of neighbouring slots in one direction
   std::vector<Image> corner_images;  // likewise; between two mirrored cells, at periodic corners; for mass fluxes alone
-  std::vector<double> opening_cells_area;  // per boundary: area of the openings on the lattice [dx^2]
+  std::vector<double> opening_cells_area;  // per boundary: area on the lattice, times shares of parts [dx^2]
   std::size_t missed = 0;                  // links out of the fluid on which no surface was found (taken as q = 1)
 };
 

@@ -95,8 +95,8 @@ FluxRoutes find_routes(const Air& air, FaceFluxes& fluxes) {
       const std::ptrdiff_t own = booked(link);
       const Run& run = rows.runs()[air.run_of_slot[own]];
       const auto& away = d3q19::velocity[link.direction];
-      const geometry::Vec3 normal =
-          air.normal[link.patch].isZero() ? geometry::Vec3(away[0], away[1], away[2]) : air.normal[link.patch];
+      const geometry::Vec3& mean = air.outward(link);
+      const geometry::Vec3 normal = mean.isZero() ? geometry::Vec3(away[0], away[1], away[2]) : mean;
       int best = 0;
       double most = -2.0;
       for (int i = 1; i <= 6; ++i) {

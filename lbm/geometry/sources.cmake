@@ -2,6 +2,7 @@ set(PUFFIN_GEOMETRY_SOURCES
   geometry/adjacency.cpp
   geometry/closing_caps.cpp
   geometry/hole_filling.cpp
+  geometry/patch_parts.cpp
   geometry/patches.cpp
   geometry/repair.cpp
   geometry/row_crossings.cpp

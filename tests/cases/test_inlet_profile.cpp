@@ -42,12 +42,12 @@ struct Inlet {
   void find() {
     const int patch = surface.patches.find("inlet");
     opening = opening_of(c, surface, patch);
-    profile = profile_of(boundary, surface, patch, opening);
+    profile = profile_of(boundary, surface, opening);
   }
   /// Speed into the domain over the mean at a place in the frame of the untilted shape.
   double at(const Vec3& x) const { return -profile.shape(tilt() * x).dot(opening.normal); }
   double mean() const {
-    return integral_over(surface, surface.patches.find("inlet"), 0.1 * opening.half[1],
+    return integral_over(surface, opening, 0.1 * opening.half[1],
                          [&](const Vec3& x) { return -profile.shape(x).dot(opening.normal); }) /
            opening.area;
   }

@@ -48,7 +48,7 @@ DropReader::DropReader(const cases::Simulation& s) {
         return slot < 0 ? otherwise : slot;
       };
       const std::ptrdiff_t second = inside(1, link.slot);
-      cells.push_back({second, second == link.slot ? second : inside(2, second), link.patch});
+      cells.push_back({second, second == link.slot ? second : inside(2, second), link.patch, air.outward(link)});
     }
     std::sort(cells.begin(), cells.end(), [](const Cell& a, const Cell& b) { return a.slot < b.slot; });
     cells.erase(std::unique(cells.begin(), cells.end(), [](const Cell& a, const Cell& b) { return a.slot == b.slot; }),
@@ -97,7 +97,7 @@ DropReading DropReader::read(const cases::Simulation& s) const {
       cells_in += 1.0;
       for (Layer* layer : {&second, &third}) {
         const PointReading r = at(held || layer == &second ? c.slot : c.next);
-        const double inward = std::max(0.0, -r.velocity.dot(s.state.air->normal[c.patch]));
+        const double inward = std::max(0.0, -r.velocity.dot(c.outward));
         layer->pressure += r.pressure;
         layer->flux += inward;
         layer->carried += inward * total_pressure(s, r);

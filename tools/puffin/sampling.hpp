@@ -83,6 +83,7 @@ class DropReader {
   struct Cell {
     std::ptrdiff_t slot, next;  // the second cell from the opening, and the third; the one before where it is missing
     int patch;
+    coupling::Vec3 outward;  // of the opening
   };
   std::vector<Cell> inlet_, outlet_;
   bool between_pressures_ = false;  // no inlet, two outlets or more

@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <numbers>
 
+#include "lbm/geometry/patch_parts.hpp"
 #include "lbm/geometry/patches.hpp"
 #include "lbm/geometry/surface_check.hpp"
 #include "tests/lbm/geometry/shapes.hpp"
@@ -45,6 +46,35 @@ TEST(Patches, SolidPlaneAndPointSelectTheSameInlet) {
     EXPECT_NEAR(area_of(nameless, p, "in"), 0.005 * 0.004, 1e-15) << select;
   }
   EXPECT_NEAR(area_of(mesh, assign_patches(mesh, {{"in", "solid:inlet"}}), "in"), 0.005 * 0.004, 1e-15);
+}
+
+// Faces of 2 x 3, 3 x 4 and 2 x 4 in parts of a box: opposite ones do not touch; neighbours do, and air crosses their
+// projection, here the hypotenuse of 2 and 3 times 4.
+TEST(Patches, PartsHangTogetherOverEdges) {
+  const TriangleMesh box = shapes::box({0, 0, 0}, {2, 3, 4}, 3);
+  const auto parts = [&](const std::vector<int>& solids) {
+    std::vector<int> of;
+    for (const int solid : box.solid) of.push_back(std::find(solids.begin(), solids.end(), solid) == solids.end());
+    return parts_of(box, of, 0);
+  };
+  const auto opposite = parts({2, 3});  // y-min, y-max
+  ASSERT_EQ(opposite.size(), 2u);
+  for (int p : {0, 1}) {
+    EXPECT_NEAR(opposite[p].area, 8.0, 1e-12);
+    EXPECT_LT((opposite[p].normal - Vec3(0, p == 0 ? -1 : 1, 0)).norm(), 1e-12);
+    EXPECT_LT((opposite[p].centroid - Vec3(1, p == 0 ? 0 : 3, 2)).norm(), 1e-12);
+  }
+  const NearestPart nearest(box, opposite);
+  EXPECT_EQ(nearest({1, 1, 1}), 0);
+  EXPECT_EQ(nearest({1, 2, 1}), 1);
+  EXPECT_EQ(nearest({9, 3.1, 5}), 1);
+  const auto neighbours = parts({0, 2});  // x-min, y-min
+  ASSERT_EQ(neighbours.size(), 1u);
+  EXPECT_NEAR(neighbours[0].surface, 20.0, 1e-12);
+  EXPECT_NEAR(neighbours[0].area, 4.0 * std::hypot(2.0, 3.0), 1e-12);
+  const auto around = parts({0, 1, 2, 3});
+  ASSERT_EQ(around.size(), 1u);
+  EXPECT_TRUE(around[0].normal.isZero());
 }
 
 TEST(Patches, UntaggedSolidsKeepTheirNames) {
