@@ -17,6 +17,7 @@
 #include "cases/undriven_speed.hpp"
 #include "cases/units.hpp"
 #include "cases/untagged_openings.hpp"
+#include "lbm/geometry/buried_faces.hpp"
 #include "lbm/geometry/voxel_report.hpp"
 
 namespace puffin::cases {
@@ -178,6 +179,10 @@ Assessment assess(const Case& given, const Surface& s) {
     c.numerics.lattice_speed = speed.value;
     if (!speed.warning.empty()) a.warnings.push_back(speed.warning);
     a.lattice = lattice_numbers(c, cell_size(c.numerics, s.volume), a.reference_speed, area_of, narrowing);
+  }
+  if (c.air.model != AirModel::lbm) {
+    const geometry::TriangleTree tree(s.mesh);
+    geometry::refuse_buried(geometry::buried_places(tree, s.marked(openings_of(c))));
   }
   if (c.air.model == AirModel::frozen && c.fines) {  // cells without a lattice: the fines are carried through them
     require_room(c, s, std::numeric_limits<double>::infinity());

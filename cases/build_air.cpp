@@ -17,6 +17,7 @@
 #include "cases/section_speed.hpp"
 #include "cases/table_file.hpp"
 #include "cases/undriven_speed.hpp"
+#include "lbm/geometry/buried_faces.hpp"
 #include "lbm/geometry/voxel_errors.hpp"
 #include "lbm/markers.hpp"
 
@@ -213,6 +214,7 @@ void build_air(Simulation& s) {
   if (c.air.model == AirModel::frozen) s.models.frozen_air = from_file(c, "air.field", [&] { return frozen_air(s); });
   if (c.air.model == AirModel::frozen && c.fines) return build_frozen_cells(s);
   if (c.air.model != AirModel::lbm) {
+    geometry::refuse_buried(geometry::buried_places(*s.tree, s.surface.marked(openings_of(c))));
     // No lattice: the step only says how often the loads are renewed.
     rule.reference_dt = c.numerics.time_step == TimeStepRule::given
                             ? c.numerics.time_step_seconds

@@ -1,5 +1,6 @@
 set(PUFFIN_GEOMETRY_SOURCES
   geometry/adjacency.cpp
+  geometry/buried_faces.cpp
   geometry/closing_caps.cpp
   geometry/hole_filling.cpp
   geometry/patch_parts.cpp
