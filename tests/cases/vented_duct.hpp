@@ -1,6 +1,8 @@
 #pragma once
 // A duct with vents in its sides, as a file beside a case: an inlet of faces that do not touch.
 
+#include <gtest/gtest.h>
+
 #include <array>
 #include <cstdio>
 #include <filesystem>
@@ -16,7 +18,7 @@ namespace puffin::cases::test {
 /// and with `end` that end too; faces of 16 mm^2 all of them.
 class VentedDuct {
  public:
-  explicit VentedDuct(bool end) : file_(std::filesystem::temp_directory_path() / "puffin-vented-duct.stl") {
+  explicit VentedDuct(bool end) : file_(std::filesystem::temp_directory_path() / own_name()) {
     facet_of(end ? "inlet" : "wall", {0, 0, 0}, {0, 0, 4}, {0, 4, 4}, {0, 4, 0});
     facet_of("outlet", {40, 0, 0}, {40, 4, 0}, {40, 4, 4}, {40, 0, 4});
     const std::array<double, 4> x{0, 2, 6, 40};
@@ -52,6 +54,11 @@ class VentedDuct {
   }
 
  private:
+  /// Tests may run side by side.
+  static std::string own_name() {
+    return std::string("puffin-vented-duct-") + ::testing::UnitTest::GetInstance()->current_test_info()->name() +
+           ".stl";
+  }
   using Corner = std::array<double, 3>;
   void facet_of(const std::string& solid, Corner a, Corner b, Corner c, Corner d) {
     for (const auto& t : {std::array{a, b, c}, std::array{a, c, d}}) {

@@ -69,14 +69,14 @@ int run_here(const RunOptions& options, cases::Case c, int threads, Clock::time_
   const std::vector<std::string> doubts = assessment_warnings(c);
   const auto simulation = built(c, options.case_file, options.beds);
   cases::Simulation& s = *simulation;
+  s.warnings = first_warnings(s);  // before there is a folder: it refuses places outside the fluid
+  add_new(doubts, s.warnings);
   const double case_stop_time = stop_time_of(c, options.case_file, options.sets, options.preset);
   const auto out = options.out.empty() ? std::nullopt : std::optional(options.out);
   const output::OutputFolder folder(out, c.name, options.resume);
   announce(folder, c.name, std::min(c.stop.time, options.until));
   try {
     log_to_file(folder.file("log.txt"));
-    s.warnings = first_warnings(s);
-    add_new(doubts, s.warnings);
     for (const std::string& text : s.warnings) log_warning(text);
     if (options.resume && !folder.resumed())
       log_warning(folder.path().string() + " was killed before its first checkpoint: the run begins anew");
