@@ -93,9 +93,13 @@ void set_inlet_flow(const Rows& rows, const LinkGeometry& surface, const std::ve
     const Boundary& boundary = surface.boundaries[b];
     const bool inlet = boundary.kind == BoundaryKind::velocity_inlet;
     if (!inlet && boundary.kind != BoundaryKind::pressure_outlet) continue;
-    for (const Face& face : faces_of(surface, b, rows.dx())) {
+    const std::vector<Face> faces = faces_of(surface, b, rows.dx());
+    double whole = 0.0;
+    for (const Face& face : faces) whole += face.area;
+    for (const Face& face : faces) {
       const Sums sums = sums_of(face, rows, boundary, edges, links);
       links.opening_cells_area[b] += sums.area * face.share;
+      if (sums.faces == 0.0 && face.area < 0.01 * whole) continue;  // a stray strip
       if (sums.faces == 0.0)
         throw geometry::GeometryError(name_of(face, boundary, "the opening") +
                                       " touches no cell of the fluid; dx is too large for it");

@@ -23,7 +23,8 @@ struct InletEdge {
 /// Where the profile falls to zero at the walls (exact_flow) the sum over the cells is the midpoint rule for the flow
 /// rate whatever the fit, and the flow rate is kept.
 /// Each face of an inlet of several is brought to its own share. Fills opening_cells_area, of outlets too. Throws
-/// GeometryError if an opening, or a face of an inlet, touches no cell, or if a profile does not point into the fluid.
+/// GeometryError if an opening, or a face of an inlet that has a hundredth of its area, touches no cell, or if a
+/// profile does not point into the fluid.
 void set_inlet_flow(const Rows& rows, const LinkGeometry& surface, const std::vector<InletEdge>& edges, Links& links);
 
 }  // namespace puffin::lbm

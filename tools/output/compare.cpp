@@ -11,9 +11,10 @@
 namespace puffin::output {
 namespace {
 
-/// What depends on the machine and its load.
-const std::vector<std::string> about_the_machine{"wall_clock", "mlups",  "mlups_active", "memory_peak",
-                                                 "threads",    "phases", "host",         "version"};
+/// What depends on the machine and its load, and how the run was asked for.
+const std::vector<std::string> about_the_machine{"wall_clock", "mlups",         "mlups_active", "memory_peak",
+                                                 "threads",    "phases",        "host",         "version",
+                                                 "stop_time",  "case_stop_time"};
 
 bool covers(const std::string& pattern, const std::string& name) {
   return name == pattern || (name.starts_with(pattern) && name[pattern.size()] == '.');
@@ -142,6 +143,11 @@ void pair_fines(const Json& a, Json& b, std::vector<std::string>& notes) {
   notes.push_back("fines: \"" + ours + "\" of A beside \"" + theirs + "\" of B");
 }
 
+/// Summaries of before have no flow rate beside their pressure drops.
+bool is_newer(const std::string& name, const double* other) {
+  return other == nullptr && covers("pressure.flow_rate", name);
+}
+
 std::string cell(const std::optional<double>& value) {
   if (!value) return "-";
   char text[32];
@@ -182,11 +188,12 @@ Comparison compare_runs(const std::filesystem::path& a, const std::filesystem::p
   for (const auto& [name, value] : left) {
     if (is_ignored(name, tolerances)) continue;
     const double* other = find(right, name);
+    if (is_newer(name, other)) continue;
     const double scale = std::max(std::abs(value), other != nullptr ? std::abs(*other) : 0.0);
     differences.push_back(judged(name, &value, other, scale, tolerances));
   }
   for (const auto& [name, value] : right)
-    if (!is_ignored(name, tolerances) && find(left, name) == nullptr)
+    if (!is_ignored(name, tolerances) && find(left, name) == nullptr && !is_newer(name, nullptr))
       differences.push_back(judged(name, nullptr, &value, std::abs(value), tolerances));
   const CsvTable history = read_csv(a / "history.csv"), other = read_csv(b / "history.csv");
   compare_histories(history, other, tolerances, differences);

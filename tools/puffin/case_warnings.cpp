@@ -5,8 +5,10 @@
 #include <filesystem>
 #include <utility>
 
+#include "cases/room.hpp"
 #include "cases/search_path.hpp"
 #include "cases/stability_envelope.hpp"
+#include "tools/puffin/available_memory.hpp"
 
 namespace puffin::tools {
 
@@ -20,7 +22,9 @@ void warn_of_stability(const cases::Case& c, cases::Assessment& assessment) {
 
 std::vector<std::string> assessment_warnings(const cases::Case& c) try {
   if (c.air.model != cases::AirModel::lbm) return {};
-  cases::Assessment assessment = cases::assess(c, cases::load_surface(c));
+  const cases::Surface surface = cases::load_surface(c);
+  cases::require_room(c, surface, available_memory());  // what does not fit is not voxelized; the run will say so
+  cases::Assessment assessment = cases::assess(c, surface);
   warn_of_stability(c, assessment);
   // At its end a run says what its tau was throughout (lattice_warnings).
   std::erase_if(assessment.warnings, [](const std::string& text) { return text.starts_with("tau is above 1"); });

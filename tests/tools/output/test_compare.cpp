@@ -94,6 +94,26 @@ TEST(Compare, WhatTheReferenceRepeatsIsJudgedUnderItsOwnNameAlone) {
   EXPECT_FALSE(std::all_of(strict.begin(), strict.end(), [](const Difference& d) { return d.within(); }));
 }
 
+// A run again by the file of a preset's run, and a summary of before there was a flow rate: nothing of the results
+// differs.
+TEST(Compare, HowARunWasAskedForIsNoResult) {
+  const Scratch folder;
+  for (const auto& [run, whole] : {std::pair("a", 0.211), std::pair("b", 0.121)}) {
+    leave_run(folder / run, 0.5, 1.0, 0.125, 0.0);
+    Summary s = read_summary(folder / run / "summary.json");
+    s.stop_time = 0.121, s.case_stop_time = whole;
+    s.pressure.emplace();
+    s.pressure->static_drop.mean = 5.0;
+    if (whole > 0.2) s.pressure->flow_rate.mean = 1e-4;
+    write_summary(folder / run / "summary.json", s);
+  }
+  for (const auto& [one, other] : {std::pair("a", "b"), std::pair("b", "a")}) {
+    const auto all = compare_runs(folder / one, folder / other, {}).differences;
+    EXPECT_TRUE(std::all_of(all.begin(), all.end(), [](const Difference& d) { return d.within(); }));
+    EXPECT_NE(named(all, "pressure.static_drop.mean"), nullptr);
+  }
+}
+
 TEST(Compare, ADifferenceIsNamedWithItsSizeAndItsMoment) {
   const Scratch folder;
   leave_run(folder / "a", 0.50, 1.0, 0.125, 0.0);

@@ -212,11 +212,11 @@ void Book::move_aside(std::size_t job) const {
   }
 }
 
-bool Book::set_damaged_aside(std::size_t job) const try {
-  if (fs::exists(run_folder(job) / "summary.json")) output::read_summary(run_folder(job) / "summary.json");
-  return false;
-} catch (const output::OutputError& e) {
-  log_warning(plan_.jobs[job].id + ": " + e.what() + "; its folder is moved aside and the run done again");
+bool Book::set_damaged_aside(std::size_t job) const {
+  const fs::path file = run_folder(job) / "summary.json";
+  if (!fs::exists(file) || Json::accept(output::read_whole(file))) return false;
+  log_warning(plan_.jobs[job].id + ": " + file.string() +
+              " is damaged; its folder is moved aside and the run done again");
   move_aside(job);
   return true;
 }
