@@ -21,7 +21,7 @@ struct BuriedPlaces {
 /// asked; empty: none. Cost: two winding numbers for a place that is not buried.
 BuriedPlaces buried_places(const TriangleTree& tree, const std::vector<char>& openings = {});
 
-/// Throws GeometryError with the first place and a remedy if there is any.
+/// Throws GeometryError with the first place and a remedy if there are two or more.
 void refuse_buried(const BuriedPlaces& places);
 
 }  // namespace puffin::lbm::geometry
